@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "orbslam/camera/depth_model.h"
+#include "orbslam/camera/pinhole_camera.h"
+
+namespace orbslam {
+
+/// The five numbers that reprojection needs: the undistorted pinhole, and bf of the virtual right camera.
+struct StereoIntrinsics {
+  double fx = 1, fy = 1, cx = 0, cy = 0;  // px
+  double bf = 0;                          // baseline * fx, px * m
+
+  StereoIntrinsics() = default;
+  StereoIntrinsics(const PinholeCamera& camera, const DepthModel& depth)
+      : fx(camera.fx), fy(camera.fy), cx(camera.cx), cy(camera.cy), bf(depth.baseline_times_fx) {}
+
+  /// (u, v, u_right), px, of a point in the camera frame with z > 0.
+  Eigen::Vector3d Project(const Eigen::Vector3d& x) const {
+    const double u = fx * x.x() / x.z() + cx;
+    return {u, fy * x.y() / x.z() + cy, u - bf / x.z()};
+  }
+};
+
+}  // namespace orbslam

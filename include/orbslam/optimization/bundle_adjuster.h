@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "orbslam/camera/stereo_intrinsics.h"
+#include "orbslam/geometry/rigid3.h"
+
+namespace orbslam {
+
+struct BundlePose {
+  Rigid3d camera_from_world;
+  bool is_fixed = false;
+};
+
+struct BundleObservation {
+  int pose = 0, point = 0;       // indices into the problem's
+  Eigen::Vector3d pixel;         // (u, v, u_right), undistorted px; u_right < 0: no depth
+  double inverse_variance = 1;   // 1 / px^2
+};
+
+/// Cameras, points (world frame, m) and who sees what. Solving changes camera poses that are not fixed and points.
+struct BundleProblem {
+  StereoIntrinsics intrinsics;
+  std::vector<BundlePose> poses;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<BundleObservation> observations;
+};
+
+struct BundleOptions {
+  enum class Solver { kDenseSchur, kSparseSchur };
+  Solver solver = Solver::kDenseSchur;
+  int robust_iterations = 5;       // first round: Huber loss at the chi-square gates
+  int final_iterations = 10;       // second round, without the outliers of the first; 0: none
+  double max_chi2_mono = 5.991;    // chi-square, 2 dof, 95 %
+  double max_chi2_stereo = 7.815;  // chi-square, 3 dof, 95 %
+  int num_threads = 1;             // more give results that differ from run to run
+};
+
+struct BundleSummary {
+  std::vector<char> is_inlier;  // one an observation, judged at the final estimate; also false behind a camera
+  double initial_cost = 0, final_cost = 0;  // of the first round
+  int num_iterations = 0;
+  bool was_stopped = false;  // by the stop token; the problem then holds the best estimate so far
+  bool is_usable = false;    // false: numerical failure, the problem is unchanged
+};
+
+/// Bundle adjustment in Ceres with Schur elimination of the points. Stops within one iteration when asked to.
+BundleSummary SolveBundle(const BundleOptions& options, std::stop_token stop, BundleProblem* problem);
+
+}  // namespace orbslam
