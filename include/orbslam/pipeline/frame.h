@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "orbslam/features/frame_features.h"
+#include "orbslam/geometry/rigid3.h"
+#include "orbslam/util/ids.h"
+
+namespace orbslam {
+
+/// A frame while it is tracked: what it saw, where it is thought to be, which map points its keypoints show.
+struct Frame {
+  FrameId id;
+  double timestamp_s = 0;
+  std::shared_ptr<const FrameFeatures> features;
+  Rigid3d camera_from_world;
+  std::vector<MapPointId> points;  // one a keypoint; invalid: none
+
+  int NumPoints() const;
+};
+
+}  // namespace orbslam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "orbslam/geometry/rigid3.h"
+#include "orbslam/util/ids.h"
+
+namespace orbslam {
+
+/// One RGB-D frame as it comes from the source, shared and never changed.
+struct RgbdImage {
+  FrameId id;
+  double timestamp_s = 0;
+  cv::Mat gray;     // CV_8UC1, raw (distorted)
+  cv::Mat depth_m;  // CV_32FC1, registered to gray, metres; 0: no measurement
+};
+
+enum class TrackingState { kNotInitialized, kOk, kLost };
+const char* Name(TrackingState state);
+
+/// How often the frames since the last keyframe saw a map point, and found it.
+struct PointStatistics {
+  MapPointId point;
+  int times_visible = 0, times_found = 0;
+};
+
+/// Tracking -> LocalMapping: a keyframe with its observations and depth points has been put into the map.
+struct KeyFrameReady {
+  KeyFrameId keyframe;
+  std::vector<PointStatistics> statistics;
+};
+
+/// What Tracking says of a frame.
+struct FrameReport {
+  FrameId id;
+  double timestamp_s = 0;
+  TrackingState state = TrackingState::kNotInitialized;
+  std::optional<Rigid3d> world_from_camera;  // only if state is kOk
+  int num_keypoints = 0;
+  int num_matches = 0;  // inliers among the map points it sees
+  std::optional<KeyFrameReady> new_keyframe;
+};
+
+}  // namespace orbslam

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/pipeline/frame.h"
+
+#include <algorithm>
+
+namespace orbslam {
+
+int Frame::NumPoints() const {
+  return static_cast<int>(std::ranges::count_if(points, [](MapPointId id) { return id.IsValid(); }));
+}
+
+}  // namespace orbslam
