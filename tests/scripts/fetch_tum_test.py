@@ -95,7 +95,8 @@ class FetchTest(ScriptTest):
                        if not key.lower().endswith("_proxy")}
         environment.update(ORBSLAM_TUM_URL=url or self.server.url, no_proxy="127.0.0.1", LC_ALL="C")
         command = [os.path.join(SCRIPTS, "fetch_tum.sh"), "--output-dir", self.output, *arguments]
-        return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+        return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60,
+                              check=False)
 
     def read(self, name):
         with open(os.path.join(self.target, name), encoding="utf-8") as file:
