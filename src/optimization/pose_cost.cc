@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimization/pose_cost.h"
+
+#include <cmath>
+#include <limits>
+
+#include "orbslam/geometry/so3.h"
+
+namespace orbslam {
+namespace {
+
+constexpr double kMinDepthM = 1e-3;
+// What an active observation costs while it is behind the camera: more than any that a step would trade for
+// it.
+constexpr double kBehindLoss = 1e3;
+
+}  // namespace
+
+struct PoseCost::Projected {
+  Eigen::Vector3d rotated;   // y of PoseNormalEquations
+  Eigen::Vector3d x;         // in the camera that sees it
+  Eigen::Vector3d residual;  // px
+  double inverse_depth;
+  double chi2;
+  bool is_in_front;
+};
+
+PoseCost::PoseCost(const StereoIntrinsics& intrinsics, const Rigid3d& b_from_a)
+    : intrinsics_(intrinsics), prior_(b_from_a), prior_rotation_(b_from_a.RotationMatrix()) {}
+
+void PoseCost::AddForward(const Eigen::Vector3d& x_a, const PixelMeasurement& seen_in_b) {
+  Add(prior_rotation_ * x_a + prior_.translation, seen_in_b, false);
+}
+
+void PoseCost::AddBackward(const Eigen::Vector3d& x_b, const PixelMeasurement& seen_in_a) {
+  Add(x_b, seen_in_a, true);
+}
+
+void PoseCost::Add(const Eigen::Vector3d& point, const PixelMeasurement& m, bool is_backward) {
+  const double right_information = m.pixel.z() < 0 ? 0.0 : m.inverse_variance;
+  observations_.push_back({point,
+                           m.pixel,
+                           {m.inverse_variance, m.inverse_variance, right_information},
+                           m.max_chi2,
+                           std::sqrt(m.max_chi2),
+                           is_backward,
+                           true});
+}
+
+PoseCost::State PoseCost::At(const Vector6d& parameters) const {
+  const Eigen::Matrix3d rotation = So3Exp(parameters.head<3>()).toRotationMatrix();
+  return {rotation, parameters.tail<3>(), (rotation * prior_rotation_).transpose()};
+}
+
+Rigid3d PoseCost::PoseAt(const Vector6d& parameters) const {
+  return Rigid3d{So3Exp(parameters.head<3>()), parameters.tail<3>()} * prior_;
+}
+
+inline PoseCost::Projected PoseCost::Project(const Observation& o, const State& state) const {
+  Projected p;
+  if (o.is_backward) {
+    p.rotated = o.point - state.translation;
+    p.x = state.a_rotation_b * p.rotated - prior_rotation_.transpose() * prior_.translation;
+  } else {
+    p.rotated = state.rotation * o.point;
+    p.x = p.rotated + state.translation;
+  }
+  p.is_in_front = p.x.z() > kMinDepthM;
+  p.inverse_depth = 1.0 / p.x.z();
+  const double u = intrinsics_.fx * p.x.x() * p.inverse_depth + intrinsics_.cx;
+  const double v = intrinsics_.fy * p.x.y() * p.inverse_depth + intrinsics_.cy;
+  p.residual = Eigen::Vector3d(u, v, u - intrinsics_.bf * p.inverse_depth) - o.pixel;
+  p.chi2 = p.residual.dot(o.information.cwiseProduct(p.residual));
+  return p;
+}
+
+double PoseCost::Chi2(int i, const State& state) const {
+  const Projected p = Project(observations_[i], state);
+  return p.is_in_front && std::isfinite(p.chi2) ? p.chi2 : std::numeric_limits<double>::infinity();
+}
+
+// Huber's rho of the squared error; weight is its derivative.
+inline double PoseCost::Loss(const Observation& o, const Projected& p, double* weight) const {
+  if (!is_robust_ || p.chi2 <= o.max_chi2) {
+    *weight = 1;
+    return p.chi2;
+  }
+  const double chi = std::sqrt(p.chi2);
+  *weight = o.max_chi / chi;
+  return 2 * o.max_chi * chi - o.max_chi2;
+}
+
+inline void PoseCost::Accumulate(const Observation& o, const State& state, PoseNormalEquations* sums) const {
+  const Projected p = Project(o, state);
+  if (!p.is_in_front) {
+    sums->cost += kBehindLoss;
+    return;
+  }
+  double weight;
+  sums->cost += Loss(o, p, &weight);
+  const Eigen::Vector3d w = weight * o.information;
+  // Rows of the projection's Jacobian: (a, 0, b), (0, c, d), (a, 0, e).
+  const double a = intrinsics_.fx * p.inverse_depth, b = -a * p.x.x() * p.inverse_depth;
+  const double c = intrinsics_.fy * p.inverse_depth, d = -c * p.x.y() * p.inverse_depth;
+  const double e = b + intrinsics_.bf * p.inverse_depth * p.inverse_depth;
+  const double xz = a * (w[0] * b + w[2] * e), yz = w[1] * c * d;
+  Eigen::Matrix3d jtj;
+  jtj << a * a * (w[0] + w[2]), 0, xz,  //
+      0, w[1] * c * c, yz,              //
+      xz, yz, w[0] * b * b + w[1] * d * d + w[2] * e * e;
+  const Eigen::Vector3d wr = w.cwiseProduct(p.residual);
+  const Eigen::Vector3d jtr(a * (wr[0] + wr[2]), c * wr[1], b * wr[0] + d * wr[1] + e * wr[2]);
+  if (o.is_backward) {
+    // d x_a = -(a_rotation_b) (d_w x y + d_t): the same form after turning into frame b.
+    sums->Add(p.rotated, state.a_rotation_b.transpose() * jtj * state.a_rotation_b,
+              -(state.a_rotation_b.transpose() * jtr));
+  } else {
+    sums->Add(p.rotated, jtj, jtr);
+  }
+}
+
+bool PoseCost::operator()(const double* parameters, double* residuals, double* jacobian) const {
+  const Vector6d x = Eigen::Map<const Vector6d>(parameters);
+  const State state = At(x);
+  if (jacobian != nullptr) {
+    PoseNormalEquations sums;
+    for (const Observation& o : observations_) {
+      if (o.is_active) Accumulate(o, state, &sums);
+    }
+    sums.WriteCompressed(So3LeftJacobian(x.head<3>()), residuals, jacobian);
+    return true;
+  }
+  double cost = 0, weight;
+  for (const Observation& o : observations_) {
+    if (!o.is_active) continue;
+    const Projected p = Project(o, state);
+    cost += p.is_in_front ? Loss(o, p, &weight) : kBehindLoss;
+  }
+  Eigen::Map<Eigen::Matrix<double, 7, 1>> r(residuals);
+  r.setZero();
+  r[6] = std::sqrt(cost);
+  return true;
+}
+
+}  // namespace orbslam

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/optimization/pose_optimizer.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "optimization/scene.h"
+
+namespace orbslam {
+namespace {
+
+struct Truth {
+  Rigid3d camera_from_world;
+  std::vector<char> is_inlier;
+};
+
+// Every third keypoint has no depth; the prior is a few degrees and centimetres off.
+PoseProblem RandomProblem(int n, double noise_px, double outlier_share, Rng* rng, Truth* truth) {
+  PoseProblem problem{test::Kinect(), {}, {}};
+  truth->camera_from_world = test::RandomMotion(rng, 1, 1);
+  const Rigid3d world_from_camera = Inverse(truth->camera_from_world);
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector3d x = test::RandomVisiblePoint(problem.intrinsics, rng);
+    const bool is_outlier = rng->Uniform() < outlier_share;
+    const Eigen::Vector3d seen = is_outlier ? test::RandomVisiblePoint(problem.intrinsics, rng) : x;
+    problem.observations.push_back({world_from_camera * x,
+                                    test::Measure(problem.intrinsics, seen, noise_px, i % 3 != 0, rng),
+                                    noise_px > 0 ? 1 / (noise_px * noise_px) : 1});
+    truth->is_inlier.push_back(!is_outlier);
+  }
+  problem.camera_from_world = test::RandomMotion(rng, 0.02, 0.03) * truth->camera_from_world;
+  return problem;
+}
+
+double AngleError(const Rigid3d& a, const Rigid3d& b) { return AngularDistance(a.rotation, b.rotation); }
+double DistanceError(const Rigid3d& a, const Rigid3d& b) {
+  return (Inverse(a).translation - Inverse(b).translation).norm();
+}
+
+TEST(PoseOptimizer, FindsTheExactPoseWithoutNoise) {
+  Rng rng(1);
+  for (int trial = 0; trial < 50; ++trial) {
+    Truth truth;
+    const PoseProblem problem = RandomProblem(10 + trial, 0, 0, &rng, &truth);
+    const PoseResult result = OptimizePose(problem);
+    EXPECT_LT(AngleError(result.camera_from_world, truth.camera_from_world), 1e-8) << trial;
+    EXPECT_LT(DistanceError(result.camera_from_world, truth.camera_from_world), 1e-8) << trial;
+    EXPECT_EQ(result.num_inliers, 10 + trial);
+  }
+}
+
+TEST(PoseOptimizer, SurvivesFortyPercentOutliers) {
+  Rng rng(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    Truth truth;
+    const PoseProblem problem = RandomProblem(300, 1.0, 0.4, &rng, &truth);
+    const PoseResult result = OptimizePose(problem);
+    // Noise of one px in 180 pixels alone would turn the camera by 1e-4; translation is confused with
+    // rotation.
+    EXPECT_LT(AngleError(result.camera_from_world, truth.camera_from_world), 2e-3) << trial;
+    EXPECT_LT(DistanceError(result.camera_from_world, truth.camera_from_world), 6e-3) << trial;
+    int kept = 0, true_inliers = 0, wrong = 0;
+    for (size_t i = 0; i < truth.is_inlier.size(); ++i) {
+      true_inliers += truth.is_inlier[i];
+      kept += truth.is_inlier[i] && result.is_inlier[i];
+      wrong += !truth.is_inlier[i] && result.is_inlier[i];
+    }
+    EXPECT_GT(kept, 0.9 * true_inliers) << trial;
+    EXPECT_LE(wrong, 3) << trial;
+    EXPECT_EQ(result.num_inliers, kept + wrong);
+  }
+}
+
+TEST(PoseOptimizer, RepeatsBitForBit) {
+  Rng rng(3);
+  Truth truth;
+  const PoseProblem problem = RandomProblem(200, 1, 0.2, &rng, &truth);
+  const PoseResult a = OptimizePose(problem), b = OptimizePose(problem);
+  EXPECT_EQ(a.camera_from_world.rotation.coeffs(), b.camera_from_world.rotation.coeffs());
+  EXPECT_EQ(a.camera_from_world.translation, b.camera_from_world.translation);
+  EXPECT_EQ(a.is_inlier, b.is_inlier);
+}
+
+TEST(PoseOptimizer, TooFewObservationsLeaveThePrior) {
+  Rng rng(4);
+  for (int n = 0; n < 3; ++n) {
+    Truth truth;
+    const PoseProblem problem = RandomProblem(n, 0, 0, &rng, &truth);
+    const PoseResult result = OptimizePose(problem);
+    EXPECT_EQ(result.num_inliers, 0);
+    EXPECT_EQ(result.camera_from_world.translation, problem.camera_from_world.translation);
+  }
+}
+
+TEST(PoseOptimizer, UnusableObservationsAreOutliers) {
+  Rng rng(5);
+  Truth truth;
+  PoseProblem problem = RandomProblem(100, 0, 0, &rng, &truth);
+  problem.observations[0].point_world = Inverse(truth.camera_from_world) * Eigen::Vector3d(0, 0, -2);
+  problem.observations[1].point_world.x() = std::numeric_limits<double>::quiet_NaN();
+  problem.observations[2].pixel.y() = std::numeric_limits<double>::infinity();
+  const PoseResult result = OptimizePose(problem);
+  EXPECT_EQ(result.num_inliers, 97);
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(result.is_inlier[i]);
+  EXPECT_LT(DistanceError(result.camera_from_world, truth.camera_from_world), 1e-8);
+}
+
+TEST(PoseOptimizer, DegenerateGeometryStaysFinite) {
+  Rng rng(6);
+  Truth truth;
+  PoseProblem problem = RandomProblem(20, 0, 0, &rng, &truth);
+  for (PoseObservation& o : problem.observations) o = problem.observations[1];
+  const PoseResult result = OptimizePose(problem);
+  EXPECT_TRUE(result.camera_from_world.rotation.coeffs().allFinite());
+  EXPECT_TRUE(result.camera_from_world.translation.allFinite());
+}
+
+}  // namespace
+}  // namespace orbslam
