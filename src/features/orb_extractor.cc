@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/features/orb_extractor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "fast_corners.h"
+#include "orbslam/features/scale_pyramid.h"
+#include "orbslam/util/check.h"
+#include "orientation.h"
+#include "quad_tree.h"
+#include "steered_brief.h"
+
+namespace orbslam {
+namespace {
+
+constexpr int kBorderPx = std::max(kPatternReach, kPatchRadius + 1);
+
+// A level's share falls with its side length, so that all levels together get num_features.
+std::vector<int> FeaturesPerLevel(const OrbExtractorOptions& options) {
+  const double ratio = 1.0 / options.scale_factor;
+  double sum = 0;
+  for (int level = 0; level < options.num_levels; ++level) sum += std::pow(ratio, level);
+  std::vector<int> wanted;
+  int rest = options.num_features;
+  for (int level = 0; level < options.num_levels; ++level) {
+    const double share = options.num_features * std::pow(ratio, level) / sum;
+    wanted.push_back(std::min(rest, static_cast<int>(std::lround(share))));
+    rest -= wanted.back();
+  }
+  wanted.back() += rest;
+  return wanted;
+}
+
+}  // namespace
+
+struct OrbExtractor::Impl {
+  explicit Impl(const OrbExtractorOptions& orb_options)
+      : options(orb_options),
+        scales(options.num_levels, options.scale_factor),
+        wanted(FeaturesPerLevel(options)),
+        images(options.num_levels),
+        corners(options.fast_threshold, options.min_fast_threshold) {}
+
+  void ExtractLevel(int level, OrbFeatures* features);
+
+  OrbExtractorOptions options;
+  ScalePyramid scales;
+  std::vector<int> wanted;      // features, by level
+  std::vector<cv::Mat> images;  // by level; the first is the caller's
+  cv::Mat smooth;
+  FastCorners corners;
+  std::vector<Corner> candidates;
+};
+
+void OrbExtractor::Impl::ExtractLevel(int level, OrbFeatures* features) {
+  const cv::Mat& image = images[level];
+  candidates = corners.Detect(image, kBorderPx);
+  const cv::Rect area(kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx);
+  const std::vector<Corner> chosen = SpreadByQuadTree(candidates, area, wanted[level]);
+  if (chosen.empty()) return;
+  cv::GaussianBlur(image, smooth, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
+  const auto scale = static_cast<float>(scales.Scale(level));
+  for (const Corner& corner : chosen) {
+    const float angle_deg =
+        CentroidAngleDeg(image.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(image.step));
+    features->keypoints.push_back({static_cast<float>(corner.x) * scale, static_cast<float>(corner.y) * scale,
+                                   angle_deg, static_cast<float>(corner.score), level});
+    features->descriptors.push_back(
+        DescribePixel(smooth.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(smooth.step), angle_deg));
+  }
+}
+
+OrbExtractor::OrbExtractor(const OrbExtractorOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  ORBSLAM_CHECK(options.num_levels >= 1 && options.scale_factor > 1.0 && options.num_features >= 0);
+}
+
+OrbExtractor::~OrbExtractor() = default;
+
+const OrbExtractorOptions& OrbExtractor::options() const { return impl_->options; }
+
+OrbFeatures OrbExtractor::Extract(const cv::Mat& image) {
+  OrbFeatures features;
+  if (image.empty()) return features;
+  ORBSLAM_CHECK(image.type() == CV_8UC1);
+  features.keypoints.reserve(impl_->options.num_features + 3 * impl_->options.num_levels);
+  features.descriptors.reserve(features.keypoints.capacity());
+  impl_->images[0] = image;
+  for (int level = 0; level < impl_->options.num_levels; ++level) {
+    const double scale = impl_->scales.Scale(level);
+    const cv::Size size(static_cast<int>(std::lround(image.cols / scale)),
+                        static_cast<int>(std::lround(image.rows / scale)));
+    if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
+    if (level > 0)
+      cv::resize(impl_->images[level - 1], impl_->images[level], size, 0, 0, cv::INTER_LINEAR_EXACT);
+    impl_->ExtractLevel(level, &features);
+  }
+  impl_->images[0].release();
+  return features;
+}
+
+}  // namespace orbslam
