@@ -6,7 +6,7 @@
 namespace orbslam {
 
 int Frame::NumPoints() const {
-  return static_cast<int>(std::ranges::count_if(points, [](MapPointId id) { return id.IsValid(); }));
+  return static_cast<int>(std::ranges::count_if(points, &MapPointId::IsValid));
 }
 
 }  // namespace orbslam

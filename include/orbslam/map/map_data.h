@@ -13,6 +13,20 @@
 
 namespace orbslam {
 
+namespace internal {
+
+/// References to what has not been erased. Vector may be const or not.
+template <class Vector>
+auto Living(Vector& all) {
+  return all | std::views::filter([](const auto& item) { return item != nullptr; }) |
+         std::views::transform([](auto& item) -> auto& {
+           using Item = std::remove_reference_t<decltype(*item)>;
+           return static_cast<std::conditional_t<std::is_const_v<Vector>, const Item&, Item&>>(*item);
+         });
+}
+
+}  // namespace internal
+
 /// Keyframes, map points and their cross references, all by id. Owns everything; knows nothing of threads (see Map).
 /// Every edit keeps the invariants of invariants.h: observations are mutual, covisibility weights are exact, the
 /// spanning tree is a tree.
@@ -54,10 +68,10 @@ class MapData {
   void RemoveObservation(MapPointId point, KeyFrameId keyframe);
 
   // --- Everything, ascending in id ---
-  auto KeyFrames() const { return Living(keyframes_); }
-  auto MapPoints() const { return Living(points_); }
-  auto MutableKeyFrames() { return LivingMutable(keyframes_); }
-  auto MutableMapPoints() { return LivingMutable(points_); }
+  auto KeyFrames() const { return internal::Living(keyframes_); }
+  auto MapPoints() const { return internal::Living(points_); }
+  auto MutableKeyFrames() { return internal::Living(keyframes_); }
+  auto MutableMapPoints() { return internal::Living(points_); }
   int num_keyframes() const { return num_keyframes_; }
   int num_points() const { return num_points_; }
   KeyFrameId last_keyframe_id() const { return KeyFrameId(static_cast<uint32_t>(keyframes_.size()) - 1); }
@@ -68,16 +82,6 @@ class MapData {
   void BumpEpoch() { ++epoch_; }
 
  private:
-  template <class T>
-  static auto Living(const std::vector<std::unique_ptr<T>>& all) {
-    return all | std::views::filter([](const auto& p) { return p != nullptr; }) |
-           std::views::transform([](const auto& p) -> const T& { return *p; });
-  }
-  template <class T>
-  static auto LivingMutable(std::vector<std::unique_ptr<T>>& all) {
-    return all | std::views::filter([](const auto& p) { return p != nullptr; }) |
-           std::views::transform([](const auto& p) -> T& { return *p; });
-  }
   void ChangeCovisibility(KeyFrameId a, KeyFrameId b, int delta);
   void ReparentChildren(KeyFrame& keyframe);
   bool IsAncestor(KeyFrameId ancestor, KeyFrameId descendant) const;

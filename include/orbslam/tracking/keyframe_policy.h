@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "orbslam/tracking/tracking_options.h"
+
+namespace orbslam {
+
+/// What the decision is made from.
+struct KeyFrameEvidence {
+  double since_last_keyframe_s = 0;
+  int num_keyframes = 0;
+  int num_inliers = 0;             // map points tracked in this frame
+  int num_reference_points = 0;    // points of the reference keyframe that enough others see
+  int num_tracked_close = 0;       // close keypoints with a map point
+  int num_untracked_close = 0;     // close keypoints without
+  bool is_mapper_idle = true;
+};
+
+/// Whether the frame becomes a keyframe. (ORB-SLAM2, Mur-Artal and Tardos 2017, section III-E.)
+bool NeedsKeyFrame(const KeyFrameEvidence& evidence, const KeyFramePolicyOptions& options);
+
+}  // namespace orbslam

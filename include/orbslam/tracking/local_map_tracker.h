@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "orbslam/map/map.h"
+#include "orbslam/matching/projection_search.h"
+#include "orbslam/pipeline/frame.h"
+#include "orbslam/pipeline/sensor.h"
+#include "orbslam/tracking/point_counter.h"
+#include "orbslam/tracking/tracking_options.h"
+
+namespace orbslam {
+
+/// Second half of tracking a frame: takes the keyframes round it, looks for their points in it, and refines its pose
+/// with all that is found. (ORB-SLAM, Mur-Artal et al. 2015, section V-D.)
+class LocalMapTracker {
+ public:
+  LocalMapTracker(const Map& map, const Sensor& sensor, const TrackingOptions& options)
+      : map_(map), sensor_(sensor), options_(options) {}
+
+  struct Result {
+    int num_inliers = 0;
+    KeyFrameId reference;  // the keyframe that shares most points with the frame; invalid: none does
+  };
+  /// frame must have a first pose and first points. Counts what was visible and what was found.
+  Result Track(Frame* frame, PointCounter* counter);
+
+ private:
+  std::vector<KeyFrameId> LocalKeyFrames(const MapData& map, const Frame& frame) const;
+  void CollectCandidates(const MapData& map, const Frame& frame, const std::vector<KeyFrameId>& keyframes);
+  std::optional<ProjectionQuery> Predict(const MapPoint& point, const Frame& frame,
+                                         const Eigen::Vector3d& center_world) const;
+  void MatchCandidates(Frame* frame, PointCounter* counter);
+
+  const Map& map_;
+  const Sensor& sensor_;
+  const TrackingOptions& options_;
+  std::vector<uint32_t> last_visit_;  // index: point id; the visit at which it was last looked at
+  uint32_t visit_ = 0;
+  std::vector<ProjectionQuery> queries_;
+  std::vector<MapPointId> candidates_;  // one a query
+};
+
+}  // namespace orbslam

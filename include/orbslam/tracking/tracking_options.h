@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace orbslam {
+
+/// Thresholds of Tracking; values of ORB-SLAM2 (Mur-Artal and Tardos 2017) unless a line says otherwise.
+struct TrackingOptions {
+  int min_initial_depth_points = 100;  // to start a map. ORB-SLAM2 asks for 500 keypoints; depth points are what counts
+  double motion_radius_px = 10;        // search window round a prediction, px of the point's level; doubled once
+  int min_motion_matches = 20;         // below: double the window, then fall back to the reference keyframe
+  int min_reference_matches = 15;      // descriptor matches with the reference keyframe
+  int min_inliers = 10;                // map points after the first pose
+  int min_local_inliers = 30;          // map points after the local map: below, the frame is lost
+  int max_local_keyframes = 40;        // ORB-SLAM2: 80
+  int local_neighbors = 10;            // best covisibles taken in with each local keyframe
+  double local_radius_px = 2.5;        // search window of local points seen head-on, px of their level ...
+  double local_radius_oblique_px = 4;  // ... and of those seen from a new direction
+  double local_radius_factor = 2;      // of both. ORB-SLAM2: 3
+  double max_ratio_local = 0.8;
+  double max_ratio_reference = 0.7;
+  double max_viewing_angle_cos = 0.5;  // 60 degrees from a point's mean viewing direction
+};
+
+/// When a frame becomes a keyframe (ORB-SLAM2, section III-E).
+struct KeyFramePolicyOptions {
+  double max_interval_s = 1.0;          // at the latest, after so long ...
+  double min_tracked_ratio = 0.75;      // ... or if fewer of the reference keyframe's points are tracked; young map:
+  double min_tracked_ratio_young = 0.4;
+  double weak_tracked_ratio = 0.25;     // so few: even if the mapper is busy
+  int min_tracked_close = 100;          // fewer close points tracked ...
+  int min_untracked_close = 70;         // ... while so many could be made
+  int min_inliers = 15;
+  int min_depth_points = 100;           // depth points made at a keyframe, closest first, even beyond the close limit
+};
+
+}  // namespace orbslam

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flat_yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+#include <vector>
+
+#include "orbslam/util/text.h"
+
+namespace orbslam {
+namespace {
+
+using Entries = std::map<std::string, ConfigEntry>;
+
+Error LineError(const std::string& name, int line, const std::string& what) {
+  return {name + ":" + std::to_string(line) + ": " + what};
+}
+
+/// Position of the first tab that YAML would take for content or indentation; one before a comment or at the
+/// end of the line does no harm.
+size_t FindHarmfulTab(std::string_view line) {
+  char quote = 0;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      break;
+    } else if (c == '\t') {
+      const size_t next = line.find_first_not_of(" \t", i);
+      return next == std::string_view::npos || line[next] == '#' ? std::string_view::npos : i;
+    }
+  }
+  return std::string_view::npos;
+}
+
+/// True for "Camera.fx:517", which YAML does not take for a key and a value.
+bool LacksBlankAfterColon(std::string_view line) {
+  const auto is_key_letter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.' || c == '_'; };
+  line = Trim(line);
+  const size_t colon = line.find(':');
+  return colon != std::string_view::npos && colon > 0 && colon + 1 < line.size() && line[colon + 1] != ' ' &&
+         std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon), is_key_letter);
+}
+
+/// Turns the dialects that users have into what yaml-cpp reads, line by line so that its line numbers hold.
+Result<std::string> Normalize(std::string_view content, const std::string& name) {
+  std::string yaml;
+  for (const TextLine& line : SplitLines(content)) {
+    if (line.text.find('\0') != std::string_view::npos) return Error{name + ": not a text file"};
+    if (line.number == 1 && line.text.starts_with("%YAML")) {
+      yaml += '\n';  // OpenCV's "%YAML:1.0" is no YAML directive
+      continue;
+    }
+    if (FindHarmfulTab(line.text) != std::string_view::npos) {
+      return LineError(name, line.number,
+                       "a tab; YAML allows only blanks between and before keys and values");
+    }
+    if (LacksBlankAfterColon(line.text)) {
+      return LineError(name, line.number,
+                       "a blank is missing after the colon in '" + std::string(line.text) + "'");
+    }
+    yaml += std::string(line.text) + '\n';
+  }
+  return yaml;
+}
+
+ConfigEntry MakeEntry(const YAML::Node& value, int line) {
+  ConfigEntry entry;
+  entry.line = line;
+  if (value.Tag().find("opencv-matrix") != std::string::npos) {
+    entry.kind = ConfigEntry::Kind::kMatrix;
+  } else if (value.IsSequence()) {
+    entry.kind = ConfigEntry::Kind::kList;
+  } else if (!value.IsScalar()) {
+    entry.kind = ConfigEntry::Kind::kEmpty;
+  } else {
+    entry.kind = value.Tag() == "!" ? ConfigEntry::Kind::kQuoted : ConfigEntry::Kind::kPlain;
+    entry.text = value.Scalar();
+  }
+  return entry;
+}
+
+class Flattener {
+ public:
+  explicit Flattener(const std::string& name) : name_(name) {}
+
+  Status Add(const std::string& prefix, const YAML::Node& map, int depth) {
+    constexpr int kMaxDepth = 8;  // YAML's references can nest a map in itself
+    constexpr size_t kMaxEntries = 10000;
+    const int line = map.Mark().line + 1;
+    if (depth > kMaxDepth || entries_.size() > kMaxEntries)
+      return LineError(name_, line, "nested too deeply");
+    for (const auto& [key, value] : map) {
+      const int key_line = key.Mark().line + 1;
+      if (!key.IsScalar()) return LineError(name_, key_line, "a key must be a word");
+      const std::string full_key = prefix + key.Scalar();
+      const bool is_section = value.IsMap() && value.Tag().find("opencv-matrix") == std::string::npos;
+      Status status =
+          is_section ? Add(full_key + ".", value, depth + 1) : AddEntry(full_key, key_line, value);
+      if (!status) return status;
+    }
+    return OkStatus();
+  }
+
+  Entries Take() { return std::move(entries_); }
+
+ private:
+  Status AddEntry(const std::string& key, int line, const YAML::Node& value) {
+    const ConfigEntry entry = MakeEntry(value, line);
+    const auto [existing, is_new] = entries_.emplace(key, entry);
+    if (is_new) return OkStatus();
+    return LineError(name_, line, key + ": given before, in line " + std::to_string(existing->second.line));
+  }
+
+  std::string name_;
+  Entries entries_;
+};
+
+}  // namespace
+
+Result<Entries> ParseFlatYaml(std::string_view content, const std::string& name) {
+  const Result<std::string> yaml = Normalize(content, name);
+  if (!yaml) return yaml.error();
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(*yaml);
+    if (documents.empty() || documents[0].IsNull()) return Error{name + ": no settings in it"};
+    if (documents.size() > 1) {
+      return LineError(name, documents[1].Mark().line + 1, "a second YAML document; only one is read");
+    }
+    if (!documents[0].IsMap())
+      return Error{name + ": no settings file; expected lines like 'Camera.fx: 517.3'"};
+    Flattener flattener(name);
+    const Status status = flattener.Add("", documents[0], 0);
+    if (!status) return status.error();
+    return flattener.Take();
+  } catch (const YAML::Exception& exception) {
+    return LineError(name, exception.mark.line + 1, "not valid YAML (" + exception.msg + ")");
+  }
+}
+
+}  // namespace orbslam
