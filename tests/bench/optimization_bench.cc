@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
+#include "optimization/bundle_scene.h"
 #include "optimization/scene.h"
 #include "orbslam/optimization/pose_optimizer.h"
 
@@ -23,6 +24,33 @@ void BM_OptimizePose(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(OptimizePose(problem));
 }
 BENCHMARK(BM_OptimizePose)->Arg(100)->Arg(300)->Arg(500)->Unit(benchmark::kMicrosecond);
+
+void RunBundle(const test::BundleSceneOptions& scene_options, BundleOptions options,
+               benchmark::State& state) {
+  Rng rng(2);
+  const test::BundleScene scene = test::MakeBundleScene(scene_options, &rng);
+  options.solver = static_cast<BundleOptions::Solver>(state.range(0));
+  int iterations = 0;
+  for (auto _ : state) {
+    BundleProblem problem = scene.problem;
+    iterations = SolveBundle(options, {}, &problem).num_iterations;
+  }
+  state.counters["iterations"] = iterations;
+  state.counters["observations"] = static_cast<double>(scene.problem.observations.size());
+}
+
+// Argument: 0 dense, 1 sparse Schur complement.
+void BM_LocalBundle(benchmark::State& state) {
+  RunBundle({.num_fixed_poses = 20, .num_free_poses = 15, .num_points = 2500, .outlier_share = 0.03}, {},
+            state);
+}
+BENCHMARK(BM_LocalBundle)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+void BM_GlobalBundle(benchmark::State& state) {
+  RunBundle({.num_fixed_poses = 1, .num_free_poses = 299, .num_points = 30000, .outlier_share = 0.01}, {},
+            state);
+}
+BENCHMARK(BM_GlobalBundle)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace orbslam

@@ -30,9 +30,11 @@ struct BundleProblem {
 
 struct BundleOptions {
   enum class Solver { kDenseSchur, kSparseSchur };
+  // Measured (tests/bench/optimization_bench.cc): with 15 free poses, 2500 points and 12500 observations dense takes
+  // 40 ms and sparse 48; with 300 poses, 30000 points and 150000 observations dense 2.0 s and sparse 1.5.
   Solver solver = Solver::kDenseSchur;
-  int robust_iterations = 5;       // first round: Huber loss at the chi-square gates
-  int final_iterations = 10;       // second round, without the outliers of the first; 0: none
+  int robust_iterations = 5;       // at most; first round: Huber loss at the chi-square gates
+  int final_iterations = 10;       // at most; second round, without the outliers of the first; 0: none
   double max_chi2_mono = 5.991;    // chi-square, 2 dof, 95 %
   double max_chi2_stereo = 7.815;  // chi-square, 3 dof, 95 %
   int num_threads = 1;             // more give results that differ from run to run
@@ -42,11 +44,12 @@ struct BundleSummary {
   std::vector<char> is_inlier;  // one an observation, judged at the final estimate; also false behind a camera
   double initial_cost = 0, final_cost = 0;  // of the first round
   int num_iterations = 0;
-  bool was_stopped = false;  // by the stop token; the problem then holds the best estimate so far
+  bool was_stopped = false;  // asked to by the stop token; the problem then holds the best estimate so far
   bool is_usable = false;    // false: numerical failure, the problem is unchanged
 };
 
 /// Bundle adjustment in Ceres with Schur elimination of the points. Stops within one iteration when asked to.
+/// Fixed poses, and points without an inlier, keep their exact values. With one thread, runs repeat bit for bit.
 BundleSummary SolveBundle(const BundleOptions& options, std::stop_token stop, BundleProblem* problem);
 
 }  // namespace orbslam

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimization/bundle_solver.h"
+
+#include <memory>
+
+#include "optimization/stop_callback.h"
+#include "orbslam/util/check.h"
+
+namespace orbslam {
+namespace {
+
+constexpr int kPointsGroup = 0, kPosesGroup = 1;  // of elimination
+
+bool IsMono(const BundleObservation& o) { return o.pixel.z() < 0; }
+
+// Everything that Ceres is handed lives in BundleSolver.
+ceres::Problem::Options UnownedOptions() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+}  // namespace
+
+void BundleSolver::Loss::Evaluate(double chi2, double out[3]) const {
+  if (!is_dropped_) return huber_.Evaluate(chi2, out);
+  out[0] = chi2;
+  out[1] = 1;
+  out[2] = 0;
+}
+
+BundleSolver::BundleSolver(const BundleOptions& options, const BundleProblem& problem)
+    : options_(options),
+      input_(problem),
+      points_(problem.points),
+      mono_loss_(options.max_chi2_mono),
+      stereo_loss_(options.max_chi2_stereo),
+      ceres_(UnownedOptions()) {
+  poses_.reserve(problem.poses.size());
+  for (const BundlePose& pose : problem.poses) poses_.emplace_back(pose.camera_from_world);
+  AddParameters();
+  AddResiduals();
+}
+
+void BundleSolver::AddParameters() {
+  std::vector<char> is_pose_used(poses_.size(), 0), is_point_used(points_.size(), 0);
+  for (const BundleObservation& o : input_.observations) {
+    ORBSLAM_CHECK(o.pose >= 0 && o.pose < static_cast<int>(poses_.size()));
+    ORBSLAM_CHECK(o.point >= 0 && o.point < static_cast<int>(points_.size()));
+    is_pose_used[o.pose] = is_point_used[o.point] = 1;
+  }
+  for (size_t i = 0; i < points_.size(); ++i) {
+    if (is_point_used[i]) ceres_.AddParameterBlock(points_[i].data(), 3);
+  }
+  for (size_t i = 0; i < poses_.size(); ++i) {
+    if (!is_pose_used[i]) continue;
+    double *const rotation = poses_[i].rotation.data(), *const translation = poses_[i].translation.data();
+    ceres_.AddParameterBlock(rotation, 4, &manifold_);
+    ceres_.AddParameterBlock(translation, 3);
+    if (!input_.poses[i].is_fixed) continue;
+    ceres_.SetParameterBlockConstant(rotation);
+    ceres_.SetParameterBlockConstant(translation);
+  }
+}
+
+void BundleSolver::AddResiduals() {
+  for (const BundleObservation& o : input_.observations) {
+    PoseBlock& pose = poses_[o.pose];
+    costs_.emplace_back(input_.intrinsics, o);
+    ceres_.AddResidualBlock(&costs_.back(), IsMono(o) ? &mono_loss_ : &stereo_loss_, pose.rotation.data(),
+                            pose.translation.data(), points_[o.point].data());
+  }
+}
+
+ceres::Solver::Summary BundleSolver::Solve(int max_iterations, double function_tolerance,
+                                           const std::stop_token& stop) {
+  StopCallback callback(stop);
+  ceres::Solver::Options options;
+  options.linear_solver_type =
+      options_.solver == BundleOptions::Solver::kDenseSchur ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  options.max_num_iterations = max_iterations;
+  options.num_threads = options_.num_threads;
+  options.function_tolerance = function_tolerance;
+  options.jacobi_scaling =
+      false;  // radians and metres are of like size here; saves two passes over the Jacobian
+  options.callbacks.push_back(&callback);
+  options.logging_type = ceres::SILENT;
+  options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (Eigen::Vector3d& point : points_) {
+    if (ceres_.HasParameterBlock(point.data())) {
+      options.linear_solver_ordering->AddElementToGroup(point.data(), kPointsGroup);
+    }
+  }
+  for (PoseBlock& pose : poses_) {
+    if (!ceres_.HasParameterBlock(pose.rotation.data())) continue;
+    options.linear_solver_ordering->AddElementToGroup(pose.rotation.data(), kPosesGroup);
+    options.linear_solver_ordering->AddElementToGroup(pose.translation.data(), kPosesGroup);
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_, &summary);
+  return summary;
+}
+
+std::vector<char> BundleSolver::Classify() const {
+  std::vector<Rigid3d> poses;
+  poses.reserve(poses_.size());
+  for (const PoseBlock& block : poses_) poses.push_back(block.Pose());
+  std::vector<char> is_inlier(input_.observations.size(), 0);
+  for (size_t i = 0; i < is_inlier.size(); ++i) {
+    const BundleObservation& o = input_.observations[i];
+    const Eigen::Vector3d x = poses[o.pose] * points_[o.point];
+    if (!(x.z() >= kMinDepthM)) continue;
+    Eigen::Vector3d error = input_.intrinsics.Project(x) - o.pixel;
+    if (IsMono(o)) error.z() = 0;
+    const double max_chi2 = IsMono(o) ? options_.max_chi2_mono : options_.max_chi2_stereo;
+    is_inlier[i] = o.inverse_variance * error.squaredNorm() <= max_chi2;
+  }
+  return is_inlier;
+}
+
+void BundleSolver::KeepOnly(const std::vector<char>& is_inlier) {
+  for (size_t i = 0; i < is_inlier.size(); ++i) costs_[i].SetActive(is_inlier[i]);
+  mono_loss_.Drop();
+  stereo_loss_.Drop();
+}
+
+void BundleSolver::Export(const std::vector<char>& is_inlier, BundleProblem* problem) const {
+  std::vector<char> has_inlier(points_.size(), 0);
+  for (size_t i = 0; i < is_inlier.size(); ++i) has_inlier[input_.observations[i].point] |= is_inlier[i];
+  for (size_t i = 0; i < points_.size(); ++i) {
+    if (has_inlier[i]) problem->points[i] = points_[i];
+  }
+  for (size_t i = 0; i < poses_.size(); ++i) {
+    if (!problem->poses[i].is_fixed) problem->poses[i].camera_from_world = poses_[i].Pose();
+  }
+}
+
+}  // namespace orbslam

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/optimization/bundle_adjuster.h"
+
+#include <gtest/gtest.h>
+
+#include "optimization/bundle_scene.h"
+
+namespace orbslam {
+namespace {
+
+double MaxPoseErrorM(const BundleProblem& a, const BundleProblem& b) {
+  double error = 0;
+  for (size_t i = 0; i < a.poses.size(); ++i) {
+    const Rigid3d difference = Inverse(a.poses[i].camera_from_world) * b.poses[i].camera_from_world;
+    error = std::max(error, difference.translation.norm());
+  }
+  return error;
+}
+
+bool AreIdentical(const BundleProblem& a, const BundleProblem& b) {
+  bool same = a.points == b.points;
+  for (size_t i = 0; i < a.poses.size(); ++i) {
+    const Rigid3d &p = a.poses[i].camera_from_world, &q = b.poses[i].camera_from_world;
+    same = same && p.rotation.coeffs() == q.rotation.coeffs() && p.translation == q.translation;
+  }
+  return same;
+}
+
+class BundleAdjusterTest : public ::testing::TestWithParam<BundleOptions::Solver> {};
+
+TEST_P(BundleAdjusterTest, RecoversPosesAndPointsWithoutNoise) {
+  Rng rng(1);
+  test::BundleScene scene = test::MakeBundleScene({.noise_px = 0}, &rng);
+  const BundleSummary summary = SolveBundle({.solver = GetParam()}, {}, &scene.problem);
+  EXPECT_TRUE(summary.is_usable);
+  EXPECT_LT(summary.final_cost, 1e-3 * summary.initial_cost);
+  EXPECT_LT(MaxPoseErrorM(scene.problem, scene.truth), 1e-5);
+  for (char inlier : summary.is_inlier) EXPECT_TRUE(inlier);
+}
+
+TEST_P(BundleAdjusterTest, TellsOutliersFromInliers) {
+  Rng rng(2);
+  test::BundleScene scene = test::MakeBundleScene({.noise_px = 0.5, .outlier_share = 0.1}, &rng);
+  const BundleSummary summary = SolveBundle({.solver = GetParam()}, {}, &scene.problem);
+  EXPECT_LT(MaxPoseErrorM(scene.problem, scene.truth), 5e-3);
+  int true_inliers = 0, kept = 0, outliers = 0, wrong = 0;
+  for (size_t i = 0; i < summary.is_inlier.size(); ++i) {
+    const bool truth = scene.is_true_inlier[i];
+    (truth ? true_inliers : outliers) += 1;
+    (truth ? kept : wrong) += summary.is_inlier[i];
+  }
+  EXPECT_GT(kept, 0.9 * true_inliers);
+  EXPECT_LT(wrong, 0.02 * outliers);
+}
+
+TEST_P(BundleAdjusterTest, FixedPosesDoNotMoveByABit) {
+  Rng rng(3);
+  const test::BundleScene scene = test::MakeBundleScene({}, &rng);
+  BundleProblem solved = scene.problem;
+  SolveBundle({.solver = GetParam()}, {}, &solved);
+  for (size_t i = 0; i < solved.poses.size(); ++i) {
+    const Rigid3d &before = scene.problem.poses[i].camera_from_world,
+                  &after = solved.poses[i].camera_from_world;
+    EXPECT_EQ(solved.poses[i].is_fixed, before.rotation.coeffs() == after.rotation.coeffs());
+    EXPECT_EQ(solved.poses[i].is_fixed, before.translation == after.translation);
+  }
+}
+
+TEST_P(BundleAdjusterTest, OneThreadRepeatsBitForBit) {
+  Rng rng(4);
+  const test::BundleScene scene = test::MakeBundleScene({.outlier_share = 0.05}, &rng);
+  BundleProblem a = scene.problem, b = scene.problem;
+  SolveBundle({.solver = GetParam()}, {}, &a);
+  SolveBundle({.solver = GetParam()}, {}, &b);
+  EXPECT_TRUE(AreIdentical(a, b));
+}
+
+TEST_P(BundleAdjusterTest, PointsAloneCanBeAdjusted) {
+  Rng rng(5);
+  test::BundleScene scene = test::MakeBundleScene({.noise_px = 0}, &rng);
+  scene.problem.poses = scene.truth.poses;
+  for (BundlePose& pose : scene.problem.poses) pose.is_fixed = true;
+  EXPECT_TRUE(SolveBundle({.solver = GetParam()}, {}, &scene.problem).is_usable);
+  double error = 0;
+  for (size_t i = 0; i < scene.truth.points.size(); ++i) {
+    error = std::max(error, (scene.problem.points[i] - scene.truth.points[i]).norm());
+  }
+  EXPECT_LT(error, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, BundleAdjusterTest,
+                         ::testing::Values(BundleOptions::Solver::kDenseSchur,
+                                           BundleOptions::Solver::kSparseSchur));
+
+TEST(BundleAdjuster, StoppedBeforeItStartsChangesNothing) {
+  Rng rng(6);
+  const test::BundleScene scene = test::MakeBundleScene({}, &rng);
+  BundleProblem problem = scene.problem;
+  std::stop_source stop;
+  stop.request_stop();
+  const BundleSummary summary = SolveBundle({}, stop.get_token(), &problem);
+  EXPECT_TRUE(summary.was_stopped);
+  EXPECT_EQ(summary.num_iterations, 0);
+  EXPECT_EQ(summary.is_inlier.size(), problem.observations.size());
+  EXPECT_TRUE(AreIdentical(problem, scene.problem));
+}
+
+TEST(BundleAdjuster, APointThatNobodySeesRightStaysWhereItIs) {
+  Rng rng(7);
+  test::BundleScene scene = test::MakeBundleScene({}, &rng);
+  const int lonely = static_cast<int>(scene.problem.points.size());
+  const Eigen::Vector3d behind =
+      Inverse(scene.problem.poses[3].camera_from_world) * Eigen::Vector3d(0.1, 0, -2);
+  scene.problem.points.push_back(behind);
+  scene.problem.points.push_back({1, 2, 3});  // without any observation
+  scene.problem.observations.push_back({3, lonely, {10, 10, -1}, 1});
+  const BundleSummary summary = SolveBundle({}, {}, &scene.problem);
+  EXPECT_TRUE(summary.is_usable);
+  EXPECT_FALSE(summary.is_inlier.back());
+  EXPECT_EQ(scene.problem.points[lonely], behind);
+  EXPECT_EQ(scene.problem.points[lonely + 1], Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(BundleAdjuster, AnEmptyProblemIsSolved) {
+  BundleProblem problem;
+  problem.intrinsics = test::Kinect();
+  EXPECT_TRUE(SolveBundle({}, {}, &problem).is_usable);
+}
+
+TEST(BundleAdjuster, NumericalFailureLeavesTheProblem) {
+  Rng rng(8);
+  test::BundleScene scene = test::MakeBundleScene({}, &rng);
+  scene.problem.observations[0].pixel.x() = std::nan("");
+  const BundleProblem before = scene.problem;
+  EXPECT_FALSE(SolveBundle({}, {}, &scene.problem).is_usable);
+  EXPECT_TRUE(AreIdentical(scene.problem, before));
+}
+
+}  // namespace
+}  // namespace orbslam
