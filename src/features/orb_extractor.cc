@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "fast_corners.h"
 #include "orbslam/features/scale_pyramid.h"
 #include "orbslam/util/check.h"
 #include "orientation.h"
 #include "quad_tree.h"
+#include "shrink.h"
+#include "smooth.h"
 #include "steered_brief.h"
 
 namespace orbslam {
@@ -41,14 +42,17 @@ struct OrbExtractor::Impl {
         scales(options.num_levels, options.scale_factor),
         wanted(FeaturesPerLevel(options)),
         images(options.num_levels),
+        shrinkers(options.num_levels),
         corners(options.fast_threshold, options.min_fast_threshold) {}
 
   void ExtractLevel(int level, OrbFeatures* features);
 
   OrbExtractorOptions options;
   ScalePyramid scales;
-  std::vector<int> wanted;      // features, by level
-  std::vector<cv::Mat> images;  // by level; the first is the caller's
+  std::vector<int> wanted;          // features, by level
+  std::vector<cv::Mat> images;      // by level; the first is the caller's
+  std::vector<Shrinker> shrinkers;  // to each level, from the one before
+  Smoother smoother;
   cv::Mat smooth;
   FastCorners corners;
   std::vector<Corner> candidates;
@@ -60,7 +64,7 @@ void OrbExtractor::Impl::ExtractLevel(int level, OrbFeatures* features) {
   const cv::Rect area(kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx);
   const std::vector<Corner> chosen = SpreadByQuadTree(candidates, area, wanted[level]);
   if (chosen.empty()) return;
-  cv::GaussianBlur(image, smooth, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
+  smoother.Smooth(image, &smooth);
   const auto scale = static_cast<float>(scales.Scale(level));
   for (const Corner& corner : chosen) {
     const float angle_deg =
@@ -89,11 +93,10 @@ OrbFeatures OrbExtractor::Extract(const cv::Mat& image) {
   impl_->images[0] = image;
   for (int level = 0; level < impl_->options.num_levels; ++level) {
     const double scale = impl_->scales.Scale(level);
-    const cv::Size size(static_cast<int>(std::lround(image.cols / scale)),
-                        static_cast<int>(std::lround(image.rows / scale)));
+    const cv::Size size(static_cast<int>(std::lrint(image.cols / scale)),
+                        static_cast<int>(std::lrint(image.rows / scale)));
     if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
-    if (level > 0)
-      cv::resize(impl_->images[level - 1], impl_->images[level], size, 0, 0, cv::INTER_LINEAR_EXACT);
+    if (level > 0) impl_->shrinkers[level].Shrink(impl_->images[level - 1], size, &impl_->images[level]);
     impl_->ExtractLevel(level, &features);
   }
   impl_->images[0].release();
