@@ -59,8 +59,8 @@ std::string NearestKey(const std::string& key, const Strings& candidates) {
 std::string ConfigRange::Describe() const {
   const bool is_open_above = max == std::numeric_limits<double>::max();
   if (is_open_above && min == std::numeric_limits<double>::lowest()) return "any";
-  if (is_open_above) return (excludes_min ? "more than " : "at least ") + FormatDouble(min);
-  return (excludes_min ? "(" : "[") + FormatDouble(min) + ", " + FormatDouble(max) + "]";
+  if (is_open_above) return std::string(excludes_min ? "more than " : "at least ") + FormatDouble(min);
+  return std::string(excludes_min ? "(" : "[") + FormatDouble(min) + ", " + FormatDouble(max) + "]";
 }
 
 Result<ConfigReader> ConfigReader::Open(const std::string& path) {
@@ -128,8 +128,9 @@ std::string ConfigReader::GetString(const std::string& key, const std::vector<st
 
 void ConfigReader::AddError(const std::string& key, const std::string& message) {
   const auto entry = entries_.find(key);
-  const std::string line = entry == entries_.end() ? "" : ":" + std::to_string(entry->second.line);
-  errors_.push_back(name_ + line + ": " + key + ": " + message);
+  std::string place = name_;
+  if (entry != entries_.end()) place += ':' + std::to_string(entry->second.line);
+  errors_.push_back(place + ": " + key + ": " + message);
 }
 
 Status ConfigReader::Finish() const {

@@ -96,7 +96,9 @@ class Flattener {
     const int line = map.Mark().line + 1;
     if (depth > kMaxDepth || entries_.size() > kMaxEntries)
       return LineError(name_, line, "nested too deeply");
-    for (const auto& [key, value] : map) {
+    for (const auto& item : map) {
+      const YAML::Node& key = item.first;
+      const YAML::Node& value = item.second;
       const int key_line = key.Mark().line + 1;
       if (!key.IsScalar()) return LineError(name_, key_line, "a key must be a word");
       const std::string full_key = prefix + key.Scalar();

@@ -74,7 +74,9 @@ class ImageFile : public testing::Test {
   }
   std::string Bytes(const cv::Mat& image) {
     EXPECT_TRUE(WritePng(dir_.Path("bytes.png"), image).ok());
-    return *ReadFile(dir_.Path("bytes.png"));
+    const std::string bytes = *ReadFile(dir_.Path("bytes.png"));
+    std::filesystem::remove(dir_.Path("bytes.png"));
+    return bytes;
   }
 
   TempDir dir_;

@@ -28,8 +28,9 @@ class TempDir {
 
   std::string Path(const std::string& name) const { return (path_ / name).string(); }
 
-  /// Writes a file and returns its path.
+  /// Writes a file and returns its path. A new one each time: ext4 waits for the disk when one is overwritten.
   std::string Write(const std::string& name, std::string_view content) const {
+    std::filesystem::remove(Path(name));
     std::ofstream(Path(name), std::ios::binary) << content;
     return Path(name);
   }

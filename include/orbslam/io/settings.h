@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbslam/camera/depth_model.h"
+#include "orbslam/camera/pinhole_camera.h"
+#include "orbslam/features/orb_extractor.h"
+#include "orbslam/util/result.h"
+
+namespace orbslam {
+
+/// What a settings file says; the keys are ORB-SLAM2's, listed once in settings.cc.
+struct Settings {
+  PinholeCamera camera;
+  double fps = 30;  // Camera.fps, frames a second
+  DepthModel depth;
+  OrbExtractorOptions orb;
+
+  Settings() { camera.width = 640, camera.height = 480; }
+};
+
+/// Reads and checks a settings file. warnings, if not null, gets a line for each unknown key. Error: whatever
+/// is missing, of the wrong kind or out of range, a line each with file, line and key; or why the file cannot
+/// be read.
+Result<Settings> ReadSettings(const std::string& path, std::vector<std::string>* warnings);
+
+/// All keys with the values in use, defaults included, and their units; as a file, it reads back equal.
+std::string EffectiveSettingsYaml(const Settings& settings);
+
+}  // namespace orbslam
