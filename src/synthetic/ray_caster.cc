@@ -118,6 +118,7 @@ class RowCaster {
       row.Require(slope[i] + kOverlap * slope[2], offset[i] + kOverlap * offset[2]);
       row.Require((1 + kOverlap) * slope[2] - slope[i], (1 + kOverlap) * offset[2] - offset[i]);
     }
+    if (row.first > row.last) return;  // before the cast: a bound can be beyond all integers
     const auto slope_z = static_cast<float>(slope[2]), offset_z = static_cast<float>(offset[2]);
     for (int x = static_cast<int>(row.first); x <= static_cast<int>(row.last); ++x) {
       const float inverse_depth = offset_z + static_cast<float>(x) * slope_z;
