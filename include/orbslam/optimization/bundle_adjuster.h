@@ -15,12 +15,13 @@ struct BundlePose {
 };
 
 struct BundleObservation {
-  int pose = 0, point = 0;       // indices into the problem's
-  Eigen::Vector3d pixel;         // (u, v, u_right), undistorted px; u_right < 0: no depth
-  double inverse_variance = 1;   // 1 / px^2
+  int pose = 0, point = 0;      // indices into the problem's
+  Eigen::Vector3d pixel;        // (u, v, u_right), undistorted px; u_right < 0: no depth
+  double inverse_variance = 1;  // 1 / px^2
 };
 
-/// Cameras, points (world frame, m) and who sees what. Solving changes camera poses that are not fixed and points.
+/// Cameras, points (world frame, m) and who sees what. Solving changes camera poses that are not fixed and
+/// points.
 struct BundleProblem {
   StereoIntrinsics intrinsics;
   std::vector<BundlePose> poses;
@@ -30,8 +31,9 @@ struct BundleProblem {
 
 struct BundleOptions {
   enum class Solver { kDenseSchur, kSparseSchur };
-  // Measured (tests/bench/optimization_bench.cc): with 15 free poses, 2500 points and 12500 observations dense takes
-  // 40 ms and sparse 48; with 300 poses, 30000 points and 150000 observations dense 2.0 s and sparse 1.5.
+  // Measured (tests/bench/optimization_bench.cc): with 15 free poses, 2500 points and 12500 observations
+  // dense takes 40 ms and sparse 48; with 300 poses, 30000 points and 150000 observations dense 2.0 s and
+  // sparse 1.5.
   Solver solver = Solver::kDenseSchur;
   int robust_iterations = 5;       // at most; first round: Huber loss at the chi-square gates
   int final_iterations = 10;       // at most; second round, without the outliers of the first; 0: none
@@ -41,7 +43,8 @@ struct BundleOptions {
 };
 
 struct BundleSummary {
-  std::vector<char> is_inlier;  // one an observation, judged at the final estimate; also false behind a camera
+  std::vector<char>
+      is_inlier;  // one an observation, judged at the final estimate; also false behind a camera
   double initial_cost = 0, final_cost = 0;  // of the first round
   int num_iterations = 0;
   bool was_stopped = false;  // asked to by the stop token; the problem then holds the best estimate so far
@@ -49,7 +52,8 @@ struct BundleSummary {
 };
 
 /// Bundle adjustment in Ceres with Schur elimination of the points. Stops within one iteration when asked to.
-/// Fixed poses, and points without an inlier, keep their exact values. With one thread, runs repeat bit for bit.
+/// Fixed poses, and points without an inlier, keep their exact values. With one thread, runs repeat bit for
+/// bit.
 BundleSummary SolveBundle(const BundleOptions& options, std::stop_token stop, BundleProblem* problem);
 
 }  // namespace orbslam

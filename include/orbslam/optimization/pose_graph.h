@@ -29,6 +29,7 @@ struct PoseGraphOptions {
   int max_iterations = 20;
   double translation_scale_m = 0.05;  // residual 1 for this many metres ...
   double rotation_scale_rad = 0.02;   // ... or radians of disagreement
+  double huber_width = 0;             // edges off by more pull linearly only; in residuals; 0: no robust loss
 };
 
 struct PoseGraphSummary {
@@ -37,6 +38,7 @@ struct PoseGraphSummary {
 };
 
 /// Essential-graph optimisation over SE(3) (scale is observed by depth), Ceres with SuiteSparse.
+/// At least one node should be fixed; fixed ones keep their exact values, as do nodes without edges.
 /// (Strasdat, Davison, Montiel and Konolige, ICCV 2011; ORB-SLAM 2015, section VII-D.)
 PoseGraphSummary SolvePoseGraph(const PoseGraphOptions& options, std::stop_token stop, PoseGraph* graph);
 

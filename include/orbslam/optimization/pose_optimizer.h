@@ -10,9 +10,9 @@ namespace orbslam {
 
 /// One match of a keypoint to a map point.
 struct PoseObservation {
-  Eigen::Vector3d point_world;   // m
-  Eigen::Vector3d pixel;         // (u, v, u_right), undistorted px; u_right < 0: the keypoint has no depth
-  double inverse_variance = 1;   // 1 / px^2
+  Eigen::Vector3d point_world;  // m
+  Eigen::Vector3d pixel;        // (u, v, u_right), undistorted px; u_right < 0: the keypoint has no depth
+  double inverse_variance = 1;  // 1 / px^2
 };
 
 struct PoseProblem {
@@ -22,10 +22,10 @@ struct PoseProblem {
 };
 
 struct PoseOptimizerOptions {
-  int num_rounds = 4;                // of optimisation, each followed by reclassification
-  int max_iterations = 10;           // a round
-  double max_chi2_mono = 5.991;      // chi-square, 2 dof, 95 %: residual (u, v)
-  double max_chi2_stereo = 7.815;    // chi-square, 3 dof, 95 %: residual (u, v, u_right)
+  int num_rounds = 4;              // of optimisation, each followed by reclassification
+  int max_iterations = 10;         // a round
+  double max_chi2_mono = 5.991;    // chi-square, 2 dof, 95 %: residual (u, v)
+  double max_chi2_stereo = 7.815;  // chi-square, 3 dof, 95 %: residual (u, v, u_right)
 };
 
 struct PoseResult {
@@ -34,10 +34,10 @@ struct PoseResult {
   int num_inliers = 0;
 };
 
-/// The pose that minimises the Huber-weighted reprojection error of fixed points, by Ceres' TinySolver. After each
-/// round observations beyond the chi-square gate are left out of the next (and may come back); the last round has
-/// no robust loss. (ORB-SLAM2, Mur-Artal and Tardos 2017, section III-C "motion-only BA".)
-/// With fewer than 3 observations the prior is returned and nothing is an inlier.
+/// The pose that minimises the Huber-weighted reprojection error of fixed points, by Ceres' TinySolver. After
+/// each round observations beyond the chi-square gate are left out of the next (and may come back); the last
+/// round has no robust loss. (ORB-SLAM2, Mur-Artal and Tardos 2017, section III-C "motion-only BA".) With
+/// fewer than 3 observations the prior is returned and nothing is an inlier.
 PoseResult OptimizePose(const PoseProblem& problem, const PoseOptimizerOptions& options = {});
 
 }  // namespace orbslam
