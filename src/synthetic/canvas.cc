@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "orbslam/synthetic/canvas.h"
+#include "canvas.h"
 
 #include <algorithm>
 #include <cmath>

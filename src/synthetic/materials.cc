@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "orbslam/synthetic/canvas.h"
+#include "canvas.h"
 #include "orbslam/util/check.h"
 
 namespace orbslam {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "orbslam/synthetic/canvas.h"
+#include "canvas.h"
 #include "orbslam/util/check.h"
 
 namespace orbslam {
