@@ -9,16 +9,12 @@ namespace orbslam {
 namespace {
 
 constexpr int kCellPx = 32;
-constexpr int kMargin = kFastBlock + 1;  // of a row of scores: the suppression reads beyond both ends
 
-struct Cells {
-  explicit Cells(const cv::Rect& area)
-      : columns(std::max(1, area.width / kCellPx)),
-        rows(std::max(1, area.height / kCellPx)),
-        width((area.width + columns - 1) / columns),
-        height((area.height + rows - 1) / rows) {}
-  int columns, rows, width, height;
-};
+// Length of a cell, so that cells of about kCellPx fill the whole length.
+int CellLength(int length) {
+  const int cells = std::max(1, length / kCellPx);
+  return (length + cells - 1) / cells;
+}
 
 }  // namespace
 
@@ -34,45 +30,56 @@ const std::vector<Corner>& FastCorners::Detect(const cv::Mat& image, int border)
   corners_.clear();
   const cv::Rect area(border, border, image.cols - 2 * border, image.rows - 2 * border);
   if (area.width <= 0 || area.height <= 0) return corners_;
-  ScanRows(image, area);
-  KeepStrongOrLonely(area);
+  const int cell_width = CellLength(area.width), cell_height = CellLength(area.height);
+  const int scored = area.width + 2;
+  // Blocks of scores end, and suppression reads, up to kFastBlock behind a row.
+  const int stride = scored + 2 * kFastBlock;
+  scores_.assign((cell_height + 2) * stride + 1, 0);
+  peaks_.resize(area.width);
+  for (int top = area.y; top < area.br().y; top += cell_height) {
+    const int height = std::min(cell_height, area.br().y - top);
+    for (int row = 0; row < height + 2; ++row) {
+      uint8_t* scores = scores_.data() + row * stride;
+      kernel_.score_row(image.ptr(top - 1 + row) + area.x - 1, static_cast<ptrdiff_t>(image.step), scored,
+                        static_cast<uint8_t>(min_threshold_), scores);
+    }
+    const Band band{{area.x, top, area.width, height}, stride, scores_.data() + stride + 1};
+    const size_t first = corners_.size();
+    FindCorners(band, 0, area.width, threshold_);
+    if (min_threshold_ < threshold_) FindLonelyCorners(band, cell_width, first);
+  }
   return corners_;
 }
 
-void FastCorners::ScanRows(const cv::Mat& image, const cv::Rect& area) {
-  const int scored = area.width + 2;  // one more on each side for the suppression
-  for (auto& row : scores_) row.assign(scored + 2 * kMargin, 0);
-  peaks_.resize(area.width);
-  const auto threshold = static_cast<uint8_t>(min_threshold_);
-  for (int y = area.y - 1; y <= area.y + area.height; ++y) {
-    uint8_t* scores = scores_[y % 3].data() + kMargin;
-    kernel_.score_row(image.ptr(y) + area.x - 1, static_cast<ptrdiff_t>(image.step), scored, threshold,
-                      scores);
-    std::fill_n(scores + scored, kFastBlock, uint8_t{0});
-    if (y <= area.y) continue;
-    const uint8_t* middle = scores_[(y - 1) % 3].data() + kMargin + 1;
-    const int count = kernel_.find_peaks(scores_[(y - 2) % 3].data() + kMargin + 1, middle, scores + 1,
-                                         area.width, threshold, peaks_.data());
+void FastCorners::FindCorners(const Band& band, int begin_column, int end_column, int threshold) {
+  for (int row = 0; row < band.area.height; ++row) {
+    const uint8_t* scores = band.scores + row * band.stride + begin_column;
+    const int count =
+        kernel_.find_peaks(scores - band.stride, scores, scores + band.stride, end_column - begin_column,
+                           static_cast<uint8_t>(threshold), peaks_.data());
     for (int i = 0; i < count; ++i) {
-      corners_.push_back(
-          {static_cast<int16_t>(area.x + peaks_[i]), static_cast<int16_t>(y - 1), middle[peaks_[i]]});
+      corners_.push_back({static_cast<int16_t>(band.area.x + begin_column + peaks_[i]),
+                          static_cast<int16_t>(band.area.y + row), scores[peaks_[i]]});
     }
   }
 }
 
-void FastCorners::KeepStrongOrLonely(const cv::Rect& area) {
-  const Cells cells(area);
-  cell_best_.assign(cells.columns * cells.rows, 0);
-  auto best_of = [&](const Corner& corner) -> uint8_t& {
-    return cell_best_[(corner.y - area.y) / cells.height * cells.columns + (corner.x - area.x) / cells.width];
-  };
-  for (const Corner& corner : corners_) {
-    uint8_t& best = best_of(corner);
-    best = std::max(best, static_cast<uint8_t>(corner.score));
+// Runs of neighbouring cells without a strong corner are searched as one.
+void FastCorners::FindLonelyCorners(const Band& band, int cell_width, size_t first_strong) {
+  const int width = band.area.width;
+  const int cells = (width + cell_width - 1) / cell_width;
+  has_strong_.assign(cells + 1, 0);
+  has_strong_[cells] = 1;
+  for (size_t i = first_strong; i < corners_.size(); ++i) {
+    has_strong_[(corners_[i].x - band.area.x) / cell_width] = 1;
   }
-  std::erase_if(corners_, [&](const Corner& corner) {
-    return corner.score < threshold_ && best_of(corner) >= threshold_;
-  });
+  for (int begin = 0; begin < cells; ++begin) {
+    if (has_strong_[begin] != 0) continue;
+    int end = begin;
+    while (has_strong_[end] == 0) ++end;
+    FindCorners(band, begin * cell_width, std::min(width, end * cell_width), min_threshold_);
+    begin = end;
+  }
 }
 
 }  // namespace orbslam

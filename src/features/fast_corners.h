@@ -22,19 +22,26 @@ class FastCorners {
   /// 1 <= min_threshold <= threshold <= 255.
   FastCorners(int threshold, int min_threshold);
 
-  /// Corners at least `border` (>= 4) px away from the border of image (CV_8UC1), ordered by row, then
-  /// column.
+  /// Corners at least `border` (>= 4) px away from the border of image (CV_8UC1), in an order that depends on
+  /// nothing but the image. Valid until the next call.
   const std::vector<Corner>& Detect(const cv::Mat& image, int border);
 
  private:
-  void ScanRows(const cv::Mat& image, const cv::Rect& area);
-  void KeepStrongOrLonely(const cv::Rect& area);
+  // Scores of the rows of one band of cells, and of one row and column more on each side.
+  struct Band {
+    cv::Rect area;  // px in the image, without the extra rows and columns
+    int stride = 0;
+    const uint8_t* scores = nullptr;  // of the area's first pixel
+  };
+
+  void FindCorners(const Band& band, int begin_column, int end_column, int threshold);
+  void FindLonelyCorners(const Band& band, int cell_width, size_t first_strong);
 
   int threshold_, min_threshold_;
   const FastKernel& kernel_;
-  std::vector<uint8_t> scores_[3];  // of three rows, with a margin of kMargin before and after
+  std::vector<uint8_t> scores_;
   std::vector<uint16_t> peaks_;
-  std::vector<uint8_t> cell_best_;
+  std::vector<uint8_t> has_strong_;  // a cell of the band
   std::vector<Corner> corners_;
 };
 
