@@ -3,6 +3,8 @@
 
 #include "optimization/bundle_scene.h"
 #include "optimization/scene.h"
+#include "orbslam/optimization/absolute_pose.h"
+#include "orbslam/optimization/pose_graph.h"
 #include "orbslam/optimization/pose_optimizer.h"
 
 namespace orbslam {
@@ -52,5 +54,39 @@ void BM_GlobalBundle(benchmark::State& state) {
 }
 BENCHMARK(BM_GlobalBundle)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
+// A drifting walk whose keyframes also know the one five before them; the last one meets the first.
+void BM_PoseGraph(benchmark::State& state) {
+  Rng rng(3);
+  PoseGraph graph;
+  graph.nodes.push_back({{}, true});
+  for (int i = 1; i < state.range(0); ++i) {
+    const Rigid3d step{So3Exp({0, 0.01, 0}), {0.05, 0, 0}};
+    graph.nodes.push_back({step * graph.nodes.back().camera_from_world, false});
+    for (int j : {i - 1, i - 5}) {
+      if (j < 0) continue;
+      const Rigid3d b_from_a = graph.nodes[i].camera_from_world * Inverse(graph.nodes[j].camera_from_world);
+      graph.edges.push_back({j, i, test::RandomMotion(&rng, 0.001, 0.003) * b_from_a, 1});
+    }
+  }
+  const Rigid3d closing = test::RandomMotion(&rng, 0.05, 0.2) * Inverse(graph.nodes.back().camera_from_world);
+  graph.edges.push_back({static_cast<int>(graph.nodes.size()) - 1, 0, closing, 10});
+  for (auto _ : state) {
+    PoseGraph copy = graph;
+    benchmark::DoNotOptimize(SolvePoseGraph({}, {}, &copy));
+  }
+}
+BENCHMARK(BM_PoseGraph)->Arg(300)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+void BM_AbsolutePose(benchmark::State& state) {
+  const PoseProblem problem = TrackingProblem(100);
+  for (auto _ : state) {
+    Rng rng(4);
+    benchmark::DoNotOptimize(EstimateAbsolutePose(problem.intrinsics, problem.observations, {}, &rng));
+  }
+}
+BENCHMARK(BM_AbsolutePose)->Unit(benchmark::kMicrosecond);
+
 }  // namespace
 }  // namespace orbslam
+
+BENCHMARK_MAIN();
