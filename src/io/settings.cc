@@ -74,6 +74,15 @@ Result<Settings> ReadSettings(const std::string& path, std::vector<std::string>*
   return settings;
 }
 
+std::vector<SettingValue> EffectiveSettings(const Settings& settings) {
+  Settings copy = settings;
+  std::vector<SettingValue> values;
+  for (const ConfigRow& row : Describe(&copy)) {
+    std::visit([&](const auto* value) { values.push_back({row.key, *value}); }, row.value);
+  }
+  return values;
+}
+
 std::string EffectiveSettingsYaml(const Settings& settings) {
   Settings copy = settings;
   return WriteConfigRows(Describe(&copy));

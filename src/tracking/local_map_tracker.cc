@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "orbslam/pipeline/point_view.h"
 #include "orbslam/tracking/pose_refinement.h"
 
 namespace orbslam {
@@ -64,39 +65,18 @@ void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
   for (const MapPointId id : frame.points) {
     if (id.IsValid()) is_new(id);
   }
-  const Eigen::Vector3d center_world = Inverse(frame.camera_from_world).translation;
   for (const KeyFrameId keyframe : keyframes) {
     for (const MapPointId id : map.Find(keyframe)->points) {
       if (!id.IsValid() || !is_new(id)) continue;
-      const auto query = Predict(*map.Find(id), frame, center_world);
-      if (!query) continue;
-      queries_.push_back(*query);
+      auto view = PredictView(*map.Find(id), frame.camera_from_world, sensor_, options_.min_view_cos);
+      if (!view) continue;
+      const bool is_head_on = view->view_cos > 0.998;
+      view->query.radius_px *= static_cast<float>(
+          options_.local_radius_factor * (is_head_on ? options_.local_radius_px : options_.local_radius_oblique_px));
+      queries_.push_back(view->query);
       candidates_.push_back(id);
     }
   }
-}
-
-std::optional<ProjectionQuery> LocalMapTracker::Predict(const MapPoint& point, const Frame& frame,
-                                                        const Eigen::Vector3d& center_world) const {
-  const Eigen::Vector3d x_camera = frame.camera_from_world * point.position_world;
-  if (x_camera.z() <= 0) return std::nullopt;
-  const Eigen::Vector3f pixel = sensor_.intrinsics.Project(x_camera).cast<float>();
-  if (!sensor_.bounds.Contains(pixel.x(), pixel.y())) return std::nullopt;
-  const Eigen::Vector3d view = point.position_world - center_world;
-  const double distance_m = view.norm();
-  if (distance_m < 0.8 * point.min_distance_m || distance_m > 1.2 * point.max_distance_m) return std::nullopt;
-  const double view_cos = view.dot(point.normal_world) / distance_m;
-  if (view_cos < options_.max_viewing_angle_cos) return std::nullopt;
-  const int level = sensor_.pyramid.PredictLevel(point.max_distance_m, distance_m);
-  const double radius_px = view_cos > 0.998 ? options_.local_radius_px : options_.local_radius_oblique_px;
-  return ProjectionQuery{
-      .descriptor = point.descriptor,
-      .u = pixel.x(),
-      .v = pixel.y(),
-      .right_u = pixel.z(),
-      .radius_px = static_cast<float>(radius_px * options_.local_radius_factor * sensor_.pyramid.Scale(level)),
-      .min_level = level - 1,
-      .max_level = level};
 }
 
 void LocalMapTracker::MatchCandidates(Frame* frame, PointCounter* counter) {

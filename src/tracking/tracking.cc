@@ -108,7 +108,7 @@ bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLo
   }
   const auto guard = map_->Read();
   evidence.num_keyframes = guard->num_keyframes();
-  const int min_observations = evidence.num_keyframes <= 2 ? std::max(1, evidence.num_keyframes) : 3;
+  const int min_observations = std::min(evidence.num_keyframes, 2);
   for (const MapPointId id : guard->Find(reference_)->points) {
     if (id.IsValid() && guard->Find(id)->NumObservations() >= min_observations) ++evidence.num_reference_points;
   }

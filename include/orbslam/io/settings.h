@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "orbslam/camera/depth_model.h"
@@ -25,6 +26,13 @@ struct Settings {
 /// is missing, of the wrong kind or out of range, a line each with file, line and key; or why the file cannot
 /// be read.
 Result<Settings> ReadSettings(const std::string& path, std::vector<std::string>* warnings);
+
+/// A key and its value in use.
+struct SettingValue {
+  std::string key;
+  std::variant<double, int, bool, std::string> value;
+};
+std::vector<SettingValue> EffectiveSettings(const Settings& settings);
 
 /// All keys with the values in use, defaults included, and their units; as a file, it reads back equal.
 std::string EffectiveSettingsYaml(const Settings& settings);

@@ -36,6 +36,12 @@ struct KeyFrameReady {
   std::vector<PointStatistics> statistics;
 };
 
+/// LocalMapping -> LoopClosing: a keyframe has been worked into the map.
+struct KeyFrameMapped {
+  KeyFrameId keyframe;
+  uint64_t epoch = 0;  // of the map then
+};
+
 /// What Tracking knows of LocalMapping when it decides on a keyframe.
 struct MapperLoad {
   bool is_idle = true;

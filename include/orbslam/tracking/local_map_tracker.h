@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "orbslam/map/map.h"
 #include "orbslam/matching/projection_search.h"
@@ -29,8 +29,6 @@ class LocalMapTracker {
  private:
   std::vector<KeyFrameId> LocalKeyFrames(const MapData& map, const Frame& frame) const;
   void CollectCandidates(const MapData& map, const Frame& frame, const std::vector<KeyFrameId>& keyframes);
-  std::optional<ProjectionQuery> Predict(const MapPoint& point, const Frame& frame,
-                                         const Eigen::Vector3d& center_world) const;
   void MatchCandidates(Frame* frame, PointCounter* counter);
 
   const Map& map_;

@@ -10,7 +10,7 @@ struct TrackingOptions {
   int min_motion_matches = 20;         // below: double the window, then fall back to the reference keyframe
   int min_reference_matches = 15;      // descriptor matches with the reference keyframe
   int min_inliers = 10;                // map points after the first pose
-  int min_local_inliers = 30;          // map points after the local map: below, the frame is lost
+  int min_local_inliers = 20;          // map points after the local map: below, the frame is lost. ORB-SLAM2: 30
   int max_local_keyframes = 40;        // ORB-SLAM2: 80
   int local_neighbors = 10;            // best covisibles taken in with each local keyframe
   double local_radius_px = 2.5;        // search window of local points seen head-on, px of their level ...
@@ -18,7 +18,7 @@ struct TrackingOptions {
   double local_radius_factor = 2;      // of both. ORB-SLAM2: 3
   double max_ratio_local = 0.8;
   double max_ratio_reference = 0.7;
-  double max_viewing_angle_cos = 0.5;  // 60 degrees from a point's mean viewing direction
+  double min_view_cos = 0.5;           // 60 degrees from a point's mean viewing direction
 };
 
 /// When a frame becomes a keyframe (ORB-SLAM2, section III-E).

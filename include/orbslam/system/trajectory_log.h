@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbslam/io/trajectory.h"
+#include "orbslam/map/map.h"
+#include "orbslam/pipeline/messages.h"
+
+namespace orbslam {
+
+/// Remembers every tracked frame relative to a keyframe, so that trajectories benefit from all that the map learned
+/// later. Poses are world_from_camera at the colour image's time stamp.
+class TrajectoryLog {
+ public:
+  /// Frames without a pose are not kept.
+  void Add(const RgbdImage& image, const FrameReport& report);
+
+  /// One pose a tracked frame.
+  std::vector<StampedPose> Camera(const Map& map) const;
+  /// One pose a keyframe that is still in the map.
+  std::vector<StampedPose> KeyFrames(const Map& map) const;
+
+  int num_poses() const { return static_cast<int>(entries_.size()); }
+
+ private:
+  struct Entry {
+    FrameId frame;
+    std::string timestamp_text;
+    KeyFrameId reference;
+    Rigid3d camera_from_reference;
+  };
+  std::vector<Entry> entries_;  // ascending in frame
+};
+
+}  // namespace orbslam

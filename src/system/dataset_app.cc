@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/system/dataset_app.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+#include "orbslam/system/run_report.h"
+#include "orbslam/util/file.h"
+#include "version.h"
+
+namespace orbslam {
+namespace {
+
+bool Succeeded(const Status& status) {
+  if (!status) spdlog::error("{}", status.error().message);
+  return status.ok();
+}
+
+/// Found out before the run and not after it: that results can be written at all.
+Status PrepareOutputFolder(const std::string& folder, const Settings& settings) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Error{fmt::format("{}: cannot make the output folder: {}", folder, error.message())};
+  return WriteFileAtomically(folder + "/settings.yaml", EffectiveSettingsYaml(settings));
+}
+
+Status CheckVocabulary(const std::string& path) {
+  if (path == "-") return OkStatus();
+  const Result<std::string> content = ReadFile(path);
+  return content ? OkStatus() : Status(content.error());
+}
+
+/// Writes all that there is, even if one file fails.
+bool WriteResults(const DatasetJob& job, const std::string& report, const System& system) {
+  const std::string folder = job.output_folder + "/";
+  const bool camera_done = Succeeded(system.SaveTrajectory(folder + "CameraTrajectory.txt"));
+  const bool keyframes_done = Succeeded(system.SaveKeyFrameTrajectory(folder + "KeyFrameTrajectory.txt"));
+  const bool report_done = Succeeded(WriteFileAtomically(folder + "run.json", report));
+  return camera_done && keyframes_done && report_done;
+}
+
+/// What a run without a single pose must have been given; nullptr: there are poses.
+const char* ExplainFailure(const RunSummary& summary, int num_tracked) {
+  if (num_tracked > 0) return nullptr;
+  if (summary.frames_processed == 0) return "no frame of the sequence could be read";
+  return "no camera pose could be computed: the images show too few corners with depth (dark, white or without "
+         "depth?)";
+}
+
+void PrintSummary(const DatasetJob& job, const RunSummary& summary, const System& system) {
+  const System::Counts counts = system.counts();
+  fmt::print("{}", FormatTrackingTimes(summary.tracking_s));
+  fmt::print("tracked {} of {} frames ({} lost, {} skipped), {} keyframes, {} map points\n", counts.tracked,
+             summary.frames_listed, summary.frames_lost, summary.frames_skipped, counts.keyframes,
+             counts.map_points);
+  fmt::print("results are in {}\n", std::filesystem::absolute(job.output_folder).lexically_normal().string());
+}
+
+}  // namespace
+
+const char* Version() { return kVersion; }
+
+int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
+  std::vector<std::string> warnings;
+  const Result<Settings> settings = ReadSettings(job.settings_path, &warnings);
+  if (!settings) return Succeeded(settings.error()), kExitError;
+  const Result<TumSequence> sequence = ReadTumSequence(job.sequence_folder, job.associations_path);
+  if (!sequence) return Succeeded(sequence.error()), kExitError;
+  warnings.insert(warnings.end(), sequence->warnings.begin(), sequence->warnings.end());
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  if (!Succeeded(CheckVocabulary(job.vocabulary_path))) return kExitError;
+  if (!Succeeded(PrepareOutputFolder(job.output_folder, *settings))) return kExitError;
+
+  System system(*settings);
+  const RunSummary summary = RunSequence(*sequence, *settings, job.run, is_interrupted, &system);
+  system.Shutdown();
+
+  const bool is_written =
+      WriteResults(job, FormatRunReport(job.command_line, *settings, warnings, summary, system), system);
+  if (job.run.progress != Progress::Mode::kQuiet) PrintSummary(job, summary, system);
+  if (summary.was_interrupted) return kExitInterrupted;
+  if (const char* reason = ExplainFailure(summary, system.counts().tracked)) {
+    spdlog::error("{}: {}", job.sequence_folder, reason);
+    return kExitError;
+  }
+  return is_written ? kExitOk : kExitError;
+}
+
+}  // namespace orbslam

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/system/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "orbslam/util/resource_usage.h"
+#include "version.h"
+
+namespace orbslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json TimingsJson(const System& system) {
+  Json json = Json::object();
+  for (const auto& [name, s] : system.timings()) {
+    json[name] = {{"count", s.count},   {"mean_s", s.mean_s}, {"median_s", s.median_s},
+                  {"p90_s", s.p90_s}, {"p99_s", s.p99_s},   {"max_s", s.max_s}};
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string FormatRunReport(const std::vector<std::string>& command_line, const Settings& settings,
+                            const std::vector<std::string>& warnings, const RunSummary& summary,
+                            const System& system) {
+  const System::Counts counts = system.counts();
+  Json json;
+  json["version"] = kVersion;
+  json["command_line"] = command_line;
+  json["settings"] = Json::object();
+  for (const auto& [key, value] : EffectiveSettings(settings)) {
+    std::visit([&](const auto& v) { json["settings"][key] = v; }, value);
+  }
+  json["warnings"] = warnings;
+  json["interrupted"] = summary.was_interrupted;
+  json["frames"] = {{"listed", summary.frames_listed},
+                    {"skipped", summary.frames_skipped},
+                    {"processed", summary.frames_processed},
+                    {"tracked", counts.tracked},
+                    {"lost", summary.frames_lost}};
+  json["coverage"] =
+      summary.frames_listed > 0 ? static_cast<double>(counts.tracked) / summary.frames_listed : 0.0;
+  json["map"] = {{"keyframes", counts.keyframes}, {"points", counts.map_points}};
+  json["timings"] = TimingsJson(system);
+  json["startup_s"] = summary.startup_s;
+  json["wall_s"] = summary.wall_s;
+  json["cpu_s"] = ProcessCpuSeconds();
+  json["peak_memory_mb"] = PeakMemoryMb();
+  return json.dump(2) + "\n";
+}
+
+std::string FormatTrackingTimes(std::vector<double> tracking_s) {
+  if (tracking_s.empty()) return "no frame was tracked\n";
+  std::ranges::sort(tracking_s);
+  const double mean_s =
+      std::accumulate(tracking_s.begin(), tracking_s.end(), 0.0) / static_cast<double>(tracking_s.size());
+  return fmt::format("median tracking time: {:.6f}\nmean tracking time: {:.6f}\n", tracking_s[tracking_s.size() / 2],
+                     mean_s);
+}
+
+}  // namespace orbslam

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/system/trajectory_log.h"
+
+#include <algorithm>
+
+#include "orbslam/util/check.h"
+#include "orbslam/util/text.h"
+
+namespace orbslam {
+
+void TrajectoryLog::Add(const RgbdImage& image, const FrameReport& report) {
+  if (!report.world_from_camera) return;
+  ORBSLAM_CHECK(entries_.empty() || entries_.back().frame < image.id);
+  entries_.push_back({image.id,
+                      image.timestamp_text.empty() ? FormatFixed(image.timestamp_s, 6) : image.timestamp_text,
+                      report.reference, report.camera_from_reference});
+}
+
+std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
+  std::vector<StampedPose> poses;
+  const auto guard = map.Read();
+  for (const Entry& entry : entries_) {
+    const auto reference_from_world = guard->CameraFromWorld(entry.reference);
+    if (!reference_from_world) continue;
+    poses.push_back({entry.timestamp_text, Inverse(entry.camera_from_reference * *reference_from_world)});
+  }
+  return poses;
+}
+
+std::vector<StampedPose> TrajectoryLog::KeyFrames(const Map& map) const {
+  std::vector<StampedPose> poses;
+  const auto guard = map.Read();
+  for (const KeyFrame& keyframe : guard->KeyFrames()) {
+    const auto entry = std::ranges::lower_bound(entries_, keyframe.frame_id, {}, &Entry::frame);
+    if (entry == entries_.end() || entry->frame != keyframe.frame_id) continue;
+    poses.push_back({entry->timestamp_text, Inverse(keyframe.camera_from_world)});
+  }
+  return poses;
+}
+
+}  // namespace orbslam
