@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cpu.h"
 #include "orbslam/util/check.h"
 
 namespace orbslam {
@@ -73,7 +74,7 @@ ORBSLAM_POPCOUNT_TARGET void AllDistancesPopcnt(std::span<const Descriptor> set,
   AllDistances(set, distances);
 }
 
-const bool kHasPopcnt = __builtin_cpu_supports("popcnt");
+const bool kHasPopcnt = HasPopcnt();
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cpu.h"
 #include "orbslam/util/check.h"
 
 namespace orbslam {
@@ -19,9 +20,7 @@ int CellLength(int length) {
 }  // namespace
 
 FastCorners::FastCorners(int threshold, int min_threshold)
-    : threshold_(threshold),
-      min_threshold_(min_threshold),
-      kernel_(__builtin_cpu_supports("avx2") ? kFastAvx2 : kFastSse2) {
+    : threshold_(threshold), min_threshold_(min_threshold), kernel_(HasAvx2AndFma() ? kFastAvx2 : kFastSse2) {
   ORBSLAM_CHECK(1 <= min_threshold && min_threshold <= threshold && threshold <= 255);
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "cpu.h"
+
 namespace orbslam {
 namespace {
 
@@ -85,7 +87,7 @@ __attribute__((target("avx2"))) Moments PatchMomentsAvx2(const uint8_t* pixel, p
   return {Sum(moment_x), Sum(moment_y)};
 }
 
-const bool kHasAvx2 = __builtin_cpu_supports("avx2");
+const bool kHasAvx2 = HasAvx2AndFma();
 
 }  // namespace
 

@@ -7,13 +7,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "cpu.h"
+
 namespace orbslam {
 namespace {
 
 constexpr int kBlock = 16;  // input pixels at a time, vertically
 constexpr int kOctet = 8;   // output pixels at a time, horizontally
 
-const bool kHasAvx2 = __builtin_cpu_supports("avx2");
+const bool kHasAvx2 = HasAvx2AndFma();
 
 #define ORBSLAM_TARGET_AVX2 __attribute__((target("avx2")))
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace orbslam {
 /// whole image it uses 8-bit weights, and every tenth descriptor differs by a bit.) Keeps buffers.
 class Smoother {
  public:
+  using Weights = std::array<float, 7>;
+
+  Smoother();
+
   /// image and *out: CV_8UC1, not the same memory. *out is allocated as needed.
   void Smooth(const cv::Mat& image, cv::Mat* out);
 
@@ -18,6 +23,7 @@ class Smoother {
   void SmoothBySimd(const cv::Mat& image, cv::Mat* out);
   void SmoothByOpenCv(const cv::Mat& image, cv::Mat* out);
 
+  Weights weights_;
   std::vector<float> buffer_;
   cv::Mat padded_;
 };

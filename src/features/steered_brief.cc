@@ -8,15 +8,16 @@
 #include <numbers>
 
 #include "brief_pattern.h"
+#include "cpu.h"
 
 namespace orbslam {
 namespace {
 
 // The pattern by coordinate, so that 8 pairs (one byte of the descriptor) lie side by side.
 struct alignas(32) PatternColumns {
-  float x1[256], y1[256], x2[256], y2[256];
+  float x1[256]{}, y1[256]{}, x2[256]{}, y2[256]{};
 
-  PatternColumns() {
+  constexpr PatternColumns() {
     for (int i = 0; i < 256; ++i) {
       x1[i] = kBriefPattern[i][0];
       y1[i] = kBriefPattern[i][1];
@@ -26,7 +27,7 @@ struct alignas(32) PatternColumns {
   }
 };
 
-const PatternColumns kPattern;
+constexpr PatternColumns kPattern;
 
 using Bytes = uint8_t[32];
 
@@ -76,7 +77,7 @@ __attribute__((target("avx2"))) void DescribeAvx2(const uint8_t* pixel, int step
   }
 }
 
-const bool kHasAvx2 = __builtin_cpu_supports("avx2");
+const bool kHasAvx2 = HasAvx2AndFma();
 
 }  // namespace
 
