@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_yaml.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 #include <utility>
-#include <vector>
 
 #include "orbslam/util/text.h"
 
@@ -70,6 +71,43 @@ Result<std::string> Normalize(std::string_view content, const std::string& name)
   return yaml;
 }
 
+/// Remembers where the last document began, and where something is referred to.
+class Outline : public YAML::EventHandler {
+ public:
+  int document_line() const { return document_line_; }
+  int alias_line() const { return alias_line_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override { document_line_ = mark.line + 1; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { alias_line_ = mark.line + 1; }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  }
+  void OnMapEnd() override {}
+
+ private:
+  int document_line_ = 0, alias_line_ = 0;
+};
+
+/// YAML::Load() would silently drop all that follows the first document, and a stray bracket or comma ends
+/// one; YAML::LoadAll() never ends on some of these. References are refused: with a few, a map can contain
+/// itself.
+Status CheckOutline(const std::string& yaml, const std::string& name) {
+  std::istringstream stream(yaml);
+  YAML::Parser parser(stream);
+  Outline outline;
+  if (!parser.HandleNextDocument(outline)) return Error{name + ": no settings in it"};
+  if (outline.alias_line() > 0)
+    return LineError(name, outline.alias_line(), "references (*name) are not allowed");
+  if (!parser.HandleNextDocument(outline)) return OkStatus();
+  return LineError(name, outline.document_line(),
+                   "does not belong to the settings before it; one YAML document is expected");
+}
+
 ConfigEntry MakeEntry(const YAML::Node& value, int line) {
   ConfigEntry entry;
   entry.line = line;
@@ -90,12 +128,7 @@ class Flattener {
  public:
   explicit Flattener(const std::string& name) : name_(name) {}
 
-  Status Add(const std::string& prefix, const YAML::Node& map, int depth) {
-    constexpr int kMaxDepth = 8;  // YAML's references can nest a map in itself
-    constexpr size_t kMaxEntries = 10000;
-    const int line = map.Mark().line + 1;
-    if (depth > kMaxDepth || entries_.size() > kMaxEntries)
-      return LineError(name_, line, "nested too deeply");
+  Status Add(const std::string& prefix, const YAML::Node& map) {
     for (const auto& item : map) {
       const YAML::Node& key = item.first;
       const YAML::Node& value = item.second;
@@ -103,8 +136,7 @@ class Flattener {
       if (!key.IsScalar()) return LineError(name_, key_line, "a key must be a word");
       const std::string full_key = prefix + key.Scalar();
       const bool is_section = value.IsMap() && value.Tag().find("opencv-matrix") == std::string::npos;
-      Status status =
-          is_section ? Add(full_key + ".", value, depth + 1) : AddEntry(full_key, key_line, value);
+      Status status = is_section ? Add(full_key + ".", value) : AddEntry(full_key, key_line, value);
       if (!status) return status;
     }
     return OkStatus();
@@ -130,15 +162,13 @@ Result<Entries> ParseFlatYaml(std::string_view content, const std::string& name)
   const Result<std::string> yaml = Normalize(content, name);
   if (!yaml) return yaml.error();
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(*yaml);
-    if (documents.empty() || documents[0].IsNull()) return Error{name + ": no settings in it"};
-    if (documents.size() > 1) {
-      return LineError(name, documents[1].Mark().line + 1, "a second YAML document; only one is read");
-    }
-    if (!documents[0].IsMap())
-      return Error{name + ": no settings file; expected lines like 'Camera.fx: 517.3'"};
+    Status status = CheckOutline(*yaml, name);
+    if (!status) return status.error();
+    const YAML::Node root = YAML::Load(*yaml);
+    if (root.IsNull()) return Error{name + ": no settings in it"};
+    if (!root.IsMap()) return Error{name + ": no settings file; expected lines like 'Camera.fx: 517.3'"};
     Flattener flattener(name);
-    const Status status = flattener.Add("", documents[0], 0);
+    status = flattener.Add("", root);
     if (!status) return status.error();
     return flattener.Take();
   } catch (const YAML::Exception& exception) {

@@ -109,11 +109,14 @@ TEST(ConfigReader, WhatIsNotYamlIsToldWithItsLine) {
   EXPECT_THAT(ParseError("a: 1\nb:\t2\n"), HasSubstr("test.yaml:2: a tab"));
   EXPECT_EQ(ParseError("a: \"x\ty\"  # a\ttab\n"), "");
   EXPECT_THAT(ParseError("%YAML:1.0\na: 1\nb:2\n"),
-              HasSubstr("test.yaml:3: a blank is missing after the colon"));
+              HasSubstr("test.yaml:3: a blank is missing after the colon of 'b'"));
   EXPECT_THAT(ParseError("a: 1\nb: [1, 2\n"), AllOf(HasSubstr("test.yaml:"), HasSubstr("not valid YAML")));
   EXPECT_THAT(ParseError("a: 1\n\nc: 2\na: 3\n"), HasSubstr("test.yaml:4: a: given before, in line 1"));
   EXPECT_THAT(ParseError("a.b: 1\na:\n  b: 3\n"), HasSubstr("test.yaml:3: a.b: given before"));
-  EXPECT_THAT(ParseError("a: 1\n---\nb: 1\n"), HasSubstr("a second YAML document"));
+  EXPECT_THAT(ParseError("a: 1\n---\nb: 1\n"), HasSubstr("one YAML document is expected"));
+  EXPECT_THAT(ParseError("a: 1\n}\nb: 1\n"), HasSubstr("test.yaml:2: "));
+  EXPECT_THAT(ParseError(",YAML:1.0\n---\na: 1\n"), HasSubstr("test.yaml"));
+  EXPECT_THAT(ParseError("a: &x\n  b: *x\n"), HasSubstr("test.yaml:2: references"));
   EXPECT_THAT(ParseError("just some words\n"), HasSubstr("test.yaml: no settings file"));
   EXPECT_THAT(ParseError("- 1\n- 2\n"), HasSubstr("test.yaml: no settings file"));
   EXPECT_THAT(ParseError("%YAML:1.0\n---\n# only this\n"), HasSubstr("test.yaml: no settings in it"));
