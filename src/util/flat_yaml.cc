@@ -63,8 +63,8 @@ Result<std::string> Normalize(std::string_view content, const std::string& name)
                        "a tab; YAML allows only blanks between and before keys and values");
     }
     if (LacksBlankAfterColon(line.text)) {
-      return LineError(name, line.number,
-                       "a blank is missing after the colon in '" + std::string(line.text) + "'");
+      const std::string key(Trim(line.text.substr(0, line.text.find(':'))));
+      return LineError(name, line.number, "a blank is missing after the colon of '" + key + "'");
     }
     yaml += std::string(line.text) + '\n';
   }
