@@ -10,6 +10,9 @@ namespace orbslam {
 namespace {
 
 constexpr int kCellPx = 32;
+// Of this, 4 px are the circle and the suppression; the others keep what is read behind the last block in the
+// image.
+constexpr int kMinBorder = 8;
 
 // Length of a cell, so that cells of about kCellPx fill the whole length.
 int CellLength(int length) {
@@ -25,7 +28,7 @@ FastCorners::FastCorners(int threshold, int min_threshold)
 }
 
 const std::vector<Corner>& FastCorners::Detect(const cv::Mat& image, int border) {
-  ORBSLAM_CHECK(border >= 4);
+  ORBSLAM_CHECK(border >= kMinBorder);
   corners_.clear();
   const cv::Rect area(border, border, image.cols - 2 * border, image.rows - 2 * border);
   if (area.width <= 0 || area.height <= 0) return corners_;

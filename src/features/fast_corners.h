@@ -22,7 +22,7 @@ class FastCorners {
   /// 1 <= min_threshold <= threshold <= 255.
   FastCorners(int threshold, int min_threshold);
 
-  /// Corners at least `border` (>= 4) px away from the border of image (CV_8UC1), in an order that depends on
+  /// Corners at least `border` (>= 8) px away from the border of image (CV_8UC1), in an order that depends on
   /// nothing but the image. Valid until the next call.
   const std::vector<Corner>& Detect(const cv::Mat& image, int border);
 

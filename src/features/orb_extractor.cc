@@ -34,17 +34,23 @@ std::vector<int> FeaturesPerLevel(const OrbExtractorOptions& options) {
   return wanted;
 }
 
+const OrbExtractorOptions& Checked(const OrbExtractorOptions& options) {
+  ORBSLAM_CHECK(options.num_levels >= 1 && options.scale_factor > 1.0 && options.num_features >= 0);
+  return options;
+}
+
 }  // namespace
 
 struct OrbExtractor::Impl {
   explicit Impl(const OrbExtractorOptions& orb_options)
-      : options(orb_options),
+      : options(Checked(orb_options)),
         scales(options.num_levels, options.scale_factor),
         wanted(FeaturesPerLevel(options)),
         images(options.num_levels),
         shrinkers(options.num_levels),
         corners(options.fast_threshold, options.min_fast_threshold) {}
 
+  cv::Size LevelSize(int level) const;
   void ExtractLevel(int level, OrbFeatures* features);
 
   OrbExtractorOptions options;
@@ -57,6 +63,12 @@ struct OrbExtractor::Impl {
   FastCorners corners;
   std::vector<Corner> candidates;
 };
+
+cv::Size OrbExtractor::Impl::LevelSize(int level) const {
+  const double scale = scales.Scale(level);
+  return {static_cast<int>(std::lrint(images[0].cols / scale)),
+          static_cast<int>(std::lrint(images[0].rows / scale))};
+}
 
 void OrbExtractor::Impl::ExtractLevel(int level, OrbFeatures* features) {
   const cv::Mat& image = images[level];
@@ -76,9 +88,7 @@ void OrbExtractor::Impl::ExtractLevel(int level, OrbFeatures* features) {
   }
 }
 
-OrbExtractor::OrbExtractor(const OrbExtractorOptions& options) : impl_(std::make_unique<Impl>(options)) {
-  ORBSLAM_CHECK(options.num_levels >= 1 && options.scale_factor > 1.0 && options.num_features >= 0);
-}
+OrbExtractor::OrbExtractor(const OrbExtractorOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
 OrbExtractor::~OrbExtractor() = default;
 
@@ -92,9 +102,7 @@ OrbFeatures OrbExtractor::Extract(const cv::Mat& image) {
   features.descriptors.reserve(features.keypoints.capacity());
   impl_->images[0] = image;
   for (int level = 0; level < impl_->options.num_levels; ++level) {
-    const double scale = impl_->scales.Scale(level);
-    const cv::Size size(static_cast<int>(std::lrint(image.cols / scale)),
-                        static_cast<int>(std::lrint(image.rows / scale)));
+    const cv::Size size = impl_->LevelSize(level);
     if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
     if (level > 0) impl_->shrinkers[level].Shrink(impl_->images[level - 1], size, &impl_->images[level]);
     impl_->ExtractLevel(level, &features);
