@@ -31,7 +31,7 @@ Sensor KinectSensor() {
 std::vector<Landmark> RandomLandmarks(const Sensor& sensor, int count, Rng* rng) {
   std::vector<Landmark> landmarks;
   for (int i = 0; i < count; ++i) {
-    const double u = rng->Uniform(0, sensor.camera.width), v = rng->Uniform(0, sensor.camera.height);
+    const double u = rng->Uniform(-0.5, 1.5) * sensor.camera.width, v = rng->Uniform(0, sensor.camera.height);
     const Eigen::Vector3d position = sensor.camera.Unproject(u, v, rng->Uniform(1, 5));
     const double max_level = sensor.pyramid.num_levels() - 3;
     landmarks.push_back({position, RandomDescriptor(rng), static_cast<float>(rng->Uniform(0, 360)),

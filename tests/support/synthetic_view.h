@@ -21,7 +21,8 @@ struct Landmark {
   double max_distance_m;  // at which it appears on level 0
 };
 
-/// Random landmarks that a camera at the world's origin sees, 1 to 5 m away.
+/// Random landmarks 1 to 5 m away from a camera at the world's origin: half of them in its view, a quarter
+/// each to the left and to the right of it.
 std::vector<Landmark> RandomLandmarks(const Sensor& sensor, int count, Rng* rng);
 
 struct ViewNoise {
