@@ -88,6 +88,14 @@ void MapData::AddLoopEdge(KeyFrameId a, KeyFrameId b) {
   second->loop_edges.insert(a);
 }
 
+KeyFrameId MapData::Resolve(KeyFrameId id) const {
+  while (id.IsValid() && Find(id) == nullptr) {
+    const auto found = remains_.find(id);
+    id = found == remains_.end() ? KeyFrameId() : found->second.parent;
+  }
+  return id;
+}
+
 std::optional<Rigid3d> MapData::CameraFromWorld(KeyFrameId id) const {
   Rigid3d self_from_ancestor;
   while (Find(id) == nullptr) {

@@ -20,6 +20,8 @@ class FeatureGrid {
   void Near(float u, float v, float radius_px, std::span<const cv::Point2f> pixels, std::span<const int> levels,
             int min_level, int max_level, std::vector<int>* out) const;
 
+  const ImageBounds& bounds() const { return bounds_; }
+
  private:
   static constexpr int kColumns = 64, kRows = 48;
   int Column(float u) const;  // may lie outside the grid

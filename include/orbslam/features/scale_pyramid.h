@@ -9,11 +9,13 @@ namespace orbslam {
 /// Scales of the levels of an image pyramid; level 0 is the full image.
 class ScalePyramid {
  public:
-  ScalePyramid(int num_levels, double factor) : log_factor_(std::log(factor)) {
+  ScalePyramid(int num_levels, double factor) : factor_(factor), log_factor_(std::log(factor)) {
     for (int level = 0; level < num_levels; ++level) scales_.push_back(std::pow(factor, level));
   }
 
   int num_levels() const { return static_cast<int>(scales_.size()); }
+  /// Between one level and the next.
+  double factor() const { return factor_; }
   double Scale(int level) const { return scales_[level]; }
   /// Standard deviation of a keypoint's position, px in the full image: one pixel of its level.
   double SigmaPx(int level) const { return scales_[level]; }
@@ -27,9 +29,11 @@ class ScalePyramid {
     return level >= num_levels() ? num_levels() - 1 : static_cast<int>(level);
   }
 
+  friend bool operator==(const ScalePyramid&, const ScalePyramid&) = default;
+
  private:
   std::vector<double> scales_;
-  double log_factor_;
+  double factor_, log_factor_;
 };
 
 }  // namespace orbslam

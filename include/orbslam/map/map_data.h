@@ -10,8 +10,11 @@
 #include "orbslam/features/scale_pyramid.h"
 #include "orbslam/map/keyframe.h"
 #include "orbslam/map/map_point.h"
+#include "orbslam/util/result.h"
 
 namespace orbslam {
+
+struct MapState;
 
 namespace internal {
 
@@ -34,6 +37,11 @@ class MapData {
  public:
   explicit MapData(const ScalePyramid& pyramid) : pyramid_(pyramid) {}
 
+  /// A map that equals the one whose Export() this is, and goes on with the ids where that stopped. Error: the state
+  /// contradicts itself; what is said holds for any content, also for one made up to do harm.
+  static Result<MapData> FromState(MapState state);
+  MapState Export() const;
+
   // --- Keyframes ---
   KeyFrameId AddKeyFrame(FrameId frame, double timestamp_s, const Rigid3d& camera_from_world,
                          std::shared_ptr<const FrameFeatures> features);
@@ -46,6 +54,8 @@ class MapData {
   /// edges stay: false. Points that lose their last observation are erased.
   bool EraseKeyFrame(KeyFrameId id);
   void AddLoopEdge(KeyFrameId a, KeyFrameId b);
+  /// The keyframe itself, or if it was erased its nearest living ancestor; invalid: never there.
+  KeyFrameId Resolve(KeyFrameId id) const;
   /// Pose of any keyframe that ever was: erased ones follow their parent. nullopt: never there.
   std::optional<Rigid3d> CameraFromWorld(KeyFrameId id) const;
 
@@ -83,6 +93,8 @@ class MapData {
 
  private:
   void ChangeCovisibility(KeyFrameId a, KeyFrameId b, int delta);
+  void RelinkKeyFrames();
+  void RecountCovisibility();
   void ReparentChildren(KeyFrame& keyframe);
   bool IsAncestor(KeyFrameId ancestor, KeyFrameId descendant) const;
 
