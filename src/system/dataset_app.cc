@@ -8,14 +8,24 @@
 
 #include "orbslam/system/run_report.h"
 #include "orbslam/util/file.h"
+#include "orbslam/util/text.h"
 #include "version.h"
 
 namespace orbslam {
 namespace {
 
+/// Logs what failed, a line for each line of the message.
 bool Succeeded(const Status& status) {
-  if (!status) spdlog::error("{}", status.error().message);
-  return status.ok();
+  if (status) return true;
+  for (const TextLine& line : SplitLines(status.error().message)) spdlog::error("{}", line.text);
+  return false;
+}
+
+Status CheckSequenceFolder(const std::string& folder) {
+  std::error_code error;
+  if (std::filesystem::is_directory(folder, error)) return OkStatus();
+  return Error{fmt::format("{}: {}; the folder of a sequence is expected", folder,
+                           error ? error.message() : "not a folder")};
 }
 
 /// Found out before the run and not after it: that results can be written at all.
@@ -51,11 +61,14 @@ const char* ExplainFailure(const RunSummary& summary, int num_tracked) {
 
 void PrintSummary(const DatasetJob& job, const RunSummary& summary, const System& system) {
   const System::Counts counts = system.counts();
-  fmt::print("{}", FormatTrackingTimes(summary.tracking_s));
-  fmt::print("tracked {} of {} frames ({} lost, {} skipped), {} keyframes, {} map points\n", counts.tracked,
-             summary.frames_listed, summary.frames_lost, summary.frames_skipped, counts.keyframes,
-             counts.map_points);
-  fmt::print("results are in {}\n", std::filesystem::absolute(job.output_folder).lexically_normal().string());
+  const std::string text =
+      FormatTrackingTimes(summary.tracking_s) +
+      fmt::format("tracked {} of {} frames ({} lost, {} skipped), {} keyframes, {} map points\n",
+                  counts.tracked, summary.frames_listed, summary.frames_lost, summary.frames_skipped,
+                  counts.keyframes, counts.map_points) +
+      fmt::format("results are in {}\n",
+                  std::filesystem::absolute(job.output_folder).lexically_normal().string());
+  std::fputs(text.c_str(), stdout);  // unlike fmt::print, no exception if nobody can read it
 }
 
 }  // namespace
@@ -66,6 +79,7 @@ int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
   std::vector<std::string> warnings;
   const Result<Settings> settings = ReadSettings(job.settings_path, &warnings);
   if (!settings) return Succeeded(settings.error()), kExitError;
+  if (!Succeeded(CheckSequenceFolder(job.sequence_folder))) return kExitError;
   const Result<TumSequence> sequence = ReadTumSequence(job.sequence_folder, job.associations_path);
   if (!sequence) return Succeeded(sequence.error()), kExitError;
   warnings.insert(warnings.end(), sequence->warnings.begin(), sequence->warnings.end());

@@ -22,12 +22,15 @@ std::string FormatProgress(int done, int total, double elapsed_s, bool with_bar)
   const int filled = static_cast<int>(share * kBarWidth);
   const std::string bar =
       with_bar ? fmt::format("[{:#>{}}{:->{}}] ", "", filled, "", kBarWidth - filled) : std::string();
-  return fmt::format("{}{:3.0f} %  {}/{}  {:.1f} fps  ETA {}:{:02}", bar, 100 * share, done, total, fps, eta_s / 60,
-                     eta_s % 60);
+  return fmt::format("{}{:3.0f} %  {}/{}  {:.1f} fps  ETA {}:{:02}", bar, 100 * share, done, total, fps,
+                     eta_s / 60, eta_s % 60);
 }
 
 Progress::Progress(std::FILE* stream, int total, Mode mode)
-    : stream_(stream), total_(total), is_quiet_(mode == Mode::kQuiet), is_terminal_(isatty(fileno(stream)) == 1) {}
+    : stream_(stream),
+      total_(total),
+      is_quiet_(mode == Mode::kQuiet),
+      is_terminal_(isatty(fileno(stream)) == 1) {}
 
 Progress::~Progress() { Finish(); }
 
@@ -38,17 +41,17 @@ void Progress::Update(int done, const std::string& detail) {
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
   const std::string text = FormatProgress(done, total_, elapsed_s, is_terminal_) + "  " + detail;
   if (is_terminal_) {
-    fmt::print(stream_, "\r{}\x1b[K", text);  // ESC [ K erases what a longer line left behind
+    std::fputs(("\r" + text + "\x1b[K").c_str(), stream_);  // ESC [ K erases what a longer line left behind
     has_open_line_ = true;
   } else {
-    fmt::print(stream_, "{}\n", text);
+    std::fputs((text + "\n").c_str(), stream_);
   }
   std::fflush(stream_);
   next_ = Clock::now() + (is_terminal_ ? Clock::duration(kRedrawInterval) : Clock::duration(kLineInterval));
 }
 
 void Progress::Finish() {
-  if (has_open_line_) fmt::print(stream_, "\n");
+  if (has_open_line_) std::fputs("\n", stream_);
   has_open_line_ = false;
 }
 
