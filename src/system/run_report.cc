@@ -52,7 +52,8 @@ std::string FormatRunReport(const std::vector<std::string>& command_line, const 
   json["wall_s"] = summary.wall_s;
   json["cpu_s"] = ProcessCpuSeconds();
   json["peak_memory_mb"] = PeakMemoryMb();
-  return json.dump(2) + "\n";
+  // A path or a line of a list need not be UTF-8, which JSON is.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string FormatTrackingTimes(std::vector<double> tracking_s) {
