@@ -52,6 +52,13 @@ TEST_F(MapDataTest, PoseOfAKeyFrameThatNeverWasIsNothing) {
   EXPECT_FALSE(map_.CameraFromWorld(KeyFrameId()));
 }
 
+TEST_F(MapDataTest, CulledKeyFrameResolvesToItsNearestLivingAncestor) {
+  EXPECT_EQ(map_.Resolve(c_), c_);
+  for (const KeyFrameId id : {c_, b_}) ASSERT_TRUE(map_.EraseKeyFrame(id));
+  EXPECT_EQ(map_.Resolve(c_), a_);
+  EXPECT_FALSE(map_.Resolve(KeyFrameId(99)).IsValid());
+}
+
 TEST_F(MapDataTest, RootAndKeyFramesWithLoopEdgesStay) {
   map_.AddLoopEdge(a_, c_);
   for (const KeyFrameId id : {root_, a_, c_}) {

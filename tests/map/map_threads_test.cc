@@ -9,7 +9,7 @@ namespace orbslam::test {
 namespace {
 
 TEST(MapThreads, ReadersSeeASoundMapWhileAWriterEditsIt) {
-  Map map(ScalePyramid(8, 1.2));
+  Map map(MapData(ScalePyramid(8, 1.2)));
   std::atomic<bool> is_done = false;
   std::atomic<int> num_looks = 0, num_broken = 0;
   const auto read = [&] {
@@ -39,7 +39,7 @@ TEST(MapThreads, ReadersSeeASoundMapWhileAWriterEditsIt) {
 }
 
 TEST(MapThreads, PayloadOutlivesItsKeyFrame) {
-  Map map(ScalePyramid(8, 1.2));
+  Map map(MapData(ScalePyramid(8, 1.2)));
   Rng rng(17);
   KeyFrameId root, child;
   {
