@@ -38,7 +38,7 @@ class MapData {
   explicit MapData(const ScalePyramid& pyramid) : pyramid_(pyramid) {}
 
   /// A map that equals the one whose Export() this is, and goes on with the ids where that stopped. Error: the state
-  /// contradicts itself; what is said holds for any content, also for one made up to do harm.
+  /// contradicts itself; any content is safe to try, also one made up to do harm.
   static Result<MapData> FromState(MapState state);
   MapState Export() const;
 
