@@ -53,7 +53,8 @@ track() {
   echo "tracking $sequence"
   "$bin/RGB-D/rgbd_tum" "${arguments[@]}" --output-dir "$results" || code=$?
   ((code != 130)) || fail 130 "interrupted; what was computed until then is in $results"
-  ((code == 0)) || fail "$code" "$sequence: not tracked; the line above says why"
+  ((code <= 128)) || fail 1 "rgbd_tum crashed (exit code $code)"
+  ((code == 0)) || exit "$code"  # it has said why
 }
 
 # The lines NAME.FIGURE VALUE UNIT of an evaluation as a row of the table.
@@ -103,4 +104,4 @@ mkdir -p "$results"
 [[ -n $settings ]] || settings=$sequence/camera.yaml
 track
 evaluate
-echo "everything: $results"
+echo "results:    $results"
