@@ -8,34 +8,44 @@
 namespace orbslam::test {
 namespace {
 
+bool IsBroken(const MapData& map, int least_epoch) {
+  return !FindBrokenInvariants(map).empty() || map.epoch() < static_cast<uint64_t>(least_epoch);
+}
+
 TEST(MapThreads, ReadersSeeASoundMapWhileAWriterEditsIt) {
   Map map(MapData(ScalePyramid(8, 1.2)));
-  std::atomic<bool> is_done = false;
-  std::atomic<int> num_looks = 0, num_broken = 0;
+  constexpr int kNumEdits = 1000;
+  std::atomic<int> num_edits = 0, num_looks = 0, num_broken = 0;
   const auto read = [&] {
-    uint64_t last_epoch = 0;
-    while (!is_done) {
-      const auto guard = map.Read();
-      num_broken += !FindBrokenInvariants(*guard).empty() || guard->epoch() < last_epoch;
-      last_epoch = guard->epoch();
+    // One look after news each, since readers that never pause would keep the writer out.
+    for (int seen = 0; seen < kNumEdits;) {
+      num_edits.wait(seen);
+      seen = num_edits;
+      num_broken += IsBroken(*map.Read(), seen);
       ++num_looks;
+      num_looks.notify_all();
     }
   };
   const auto write = [&] {
     Rng rng(16);
-    for (int i = 0; i < 1500 || num_looks < 10; ++i) {
-      const auto guard = map.Write();
-      RandomMap(&*guard, &rng).EditOnce();
-      guard->BumpEpoch();
+    for (int i = 0; i < kNumEdits; ++i) {
+      const int looks_before = num_looks;
+      {
+        const auto guard = map.Write();
+        RandomMap(&*guard, &rng).EditOnce();
+        guard->BumpEpoch();
+      }
+      ++num_edits;
+      num_edits.notify_all();
+      num_looks.wait(looks_before);  // one reader has looked; the others may still be at it
     }
-    is_done = true;
   };
   {
     std::jthread writer(write);
     const std::jthread readers[] = {std::jthread(read), std::jthread(read), std::jthread(read)};
   }
   EXPECT_EQ(num_broken, 0);
-  EXPECT_GE(map.Read()->epoch(), 1500u);
+  EXPECT_GE(num_looks, kNumEdits);
 }
 
 TEST(MapThreads, PayloadOutlivesItsKeyFrame) {
