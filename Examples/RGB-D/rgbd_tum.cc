@@ -25,6 +25,10 @@ void AddArguments(CLI::App* app, orbslam::DatasetJob* job, std::string* log_leve
   app->add_option("ASSOCIATIONS", job->associations_path,
                   "file of 't rgb t depth' lines; default: rgb.txt and depth.txt, paired within 0.02 s");
   app->add_option("--output-dir", job->output_folder, "where the results go")->capture_default_str();
+  app->add_option("--load-map", job->load_map_path, "start in a map saved before");
+  app->add_option("--save-map", job->save_map_path, "save the map at the end");
+  app->add_flag("--localization", job->localize_only, "only localise: leave the loaded map as it is")
+      ->needs("--load-map");
   app->add_flag("--sequential", job->sequential, "one thread, exactly repeatable");
   app->add_flag("--realtime", job->run.realtime, "pace by time stamps; default: as fast as possible");
   app->add_flag_callback(

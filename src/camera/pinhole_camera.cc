@@ -25,8 +25,9 @@ std::vector<cv::Point2f> PinholeCamera::Undistort(const std::vector<cv::Point2f>
   const cv::Matx33d intrinsics(fx, 0, cx, 0, fy, cy, 0, 0, 1);
   std::vector<cv::Point2f> undistorted;
   // The fixed-point iteration of OpenCV; its default of 5 steps leaves 0.1 px in the corners of TUM's fr1.
-  cv::undistortPoints(raw, undistorted, intrinsics, cv::Mat(1, 5, CV_64F, const_cast<double*>(distortion.data())),
-                      cv::noArray(), intrinsics,
+  cv::undistortPoints(raw, undistorted, intrinsics,
+                      cv::Mat(1, 5, CV_64F, const_cast<double*>(distortion.data())), cv::noArray(),
+                      intrinsics,
                       cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.005));
   return undistorted;
 }

@@ -5,7 +5,8 @@
 
 namespace orbslam {
 
-std::optional<Eigen::Vector3d> TriangulateMidpoint(const Rigid3d& a_from_b, const Eigen::Vector3d& direction_a,
+std::optional<Eigen::Vector3d> TriangulateMidpoint(const Rigid3d& a_from_b,
+                                                   const Eigen::Vector3d& direction_a,
                                                    const Eigen::Vector3d& direction_b) {
   const Eigen::Vector3d d = direction_a.normalized();
   const Eigen::Vector3d e = (a_from_b.rotation * direction_b).normalized();

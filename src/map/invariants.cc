@@ -50,7 +50,8 @@ class Inspector {
       if (point == nullptr) continue;
       Expect(std::ranges::count(point->observations, keyframe.id, &Observation::keyframe) == 1,
              Name(keyframe.id) + " and " + Name(id) + " disagree");
-      Expect(std::ranges::count(keyframe.points, id) == 1, Name(keyframe.id) + " sees " + Name(id) + " twice");
+      Expect(std::ranges::count(keyframe.points, id) == 1,
+             Name(keyframe.id) + " sees " + Name(id) + " twice");
     }
     std::vector<Covisible> recounted;
     for (const auto& [other, count] : shared_[keyframe.id]) recounted.push_back({other, count});

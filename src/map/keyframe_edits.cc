@@ -57,13 +57,14 @@ bool MapData::EraseKeyFrame(KeyFrameId id) {
 }
 
 void MapData::ReparentChildren(KeyFrame& keyframe) {
-  // The old parent is an ancestor of every child, so that no cycle can arise from it; a covisible that descends
-  // from the keyframe itself could close one.
+  // The old parent is an ancestor of every child, so that no cycle can arise from it; a covisible that
+  // descends from the keyframe itself could close one.
   for (const KeyFrameId child_id : keyframe.children) {
     KeyFrame* child = Find(child_id);
     KeyFrameId new_parent = keyframe.parent;
     for (const KeyFrameId candidate : child->BestCovisibles(std::numeric_limits<int>::max(), 1)) {
-      if (candidate != keyframe.id && !IsAncestor(child_id, candidate) && !IsAncestor(keyframe.id, candidate)) {
+      if (candidate != keyframe.id && !IsAncestor(child_id, candidate) &&
+          !IsAncestor(keyframe.id, candidate)) {
         new_parent = candidate;
         break;
       }

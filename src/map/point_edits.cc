@@ -65,7 +65,8 @@ void MapData::FuseMapPoint(MapPointId from, MapPointId into) {
 bool MapData::AddObservation(MapPointId point_id, KeyFrameId keyframe_id, int keypoint) {
   MapPoint* point = Find(point_id);
   KeyFrame* keyframe = Find(keyframe_id);
-  ORBSLAM_CHECK(point != nullptr && keyframe != nullptr && keypoint >= 0 && keypoint < keyframe->features->size());
+  ORBSLAM_CHECK(point != nullptr && keyframe != nullptr && keypoint >= 0 &&
+                keypoint < keyframe->features->size());
   const auto place = FindObservation(point->observations, keyframe_id);
   const bool is_seen = place != point->observations.end() && place->keyframe == keyframe_id;
   if (is_seen || keyframe->points[keypoint].IsValid()) return false;

@@ -6,7 +6,8 @@
 namespace orbslam {
 namespace {
 
-bool IsRedundant(const MapData& map, const Sensor& sensor, const MappingOptions& options, const KeyFrame& keyframe) {
+bool IsRedundant(const MapData& map, const Sensor& sensor, const MappingOptions& options,
+                 const KeyFrame& keyframe) {
   const FrameFeatures& features = *keyframe.features;
   const double close_limit_m = sensor.depth.CloseLimitM(sensor.camera.fx);
   int num_points = 0, num_redundant = 0;
@@ -50,7 +51,8 @@ int CullKeyFrames(const Sensor& sensor, const MappingOptions& options, KeyFrameI
   int num_erased = 0;
   for (const KeyFrameId id : center->BestCovisibles(std::numeric_limits<int>::max())) {
     const KeyFrame* keyframe = map->Find(id);
-    if (keyframe != nullptr && IsRedundant(*map, sensor, options, *keyframe)) num_erased += map->EraseKeyFrame(id);
+    if (keyframe != nullptr && IsRedundant(*map, sensor, options, *keyframe))
+      num_erased += map->EraseKeyFrame(id);
   }
   return num_erased;
 }

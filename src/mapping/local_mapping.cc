@@ -13,7 +13,8 @@ namespace orbslam {
 namespace {
 
 /// The keyframe's covisibles, and theirs: where its points may hide under other ids.
-std::vector<KeyFrameId> FusionTargets(const MapData& map, const MappingOptions& options, KeyFrameId keyframe) {
+std::vector<KeyFrameId> FusionTargets(const MapData& map, const MappingOptions& options,
+                                      KeyFrameId keyframe) {
   std::vector<KeyFrameId> targets;
   const auto add = [&](KeyFrameId id) {
     if (id != keyframe && std::ranges::count(targets, id) == 0) targets.push_back(id);
@@ -48,7 +49,8 @@ KeyFrameMapped LocalMapping::Process(const KeyFrameReady& message, bool more_wai
   AcceptKeyFrame(message);
   {
     const auto measure = timer_.Measure("map.create_points");
-    for (const MapPointId id : CreatePoints(sensor_, options_, keyframe, map_)) point_culler_.Watch(id, keyframe);
+    for (const MapPointId id : CreatePoints(sensor_, options_, keyframe, map_))
+      point_culler_.Watch(id, keyframe);
   }
   if (!more_waiting) {
     FuseWithNeighbors(keyframe);
@@ -70,7 +72,8 @@ void LocalMapping::AcceptKeyFrame(const KeyFrameReady& message) {
   const KeyFrame* keyframe = guard->Find(message.keyframe);
   if (keyframe == nullptr) return;
   for (const MapPointId id : keyframe->points) {
-    if (id.IsValid() && guard->Find(id)->created_by == message.keyframe) point_culler_.Watch(id, message.keyframe);
+    if (id.IsValid() && guard->Find(id)->created_by == message.keyframe)
+      point_culler_.Watch(id, message.keyframe);
   }
   point_culler_.Cull(message.keyframe, &*guard);
 }

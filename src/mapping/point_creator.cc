@@ -7,6 +7,7 @@
 
 #include "orbslam/geometry/triangulation.h"
 #include "orbslam/matching/epipolar_search.h"
+#include "orbslam/pipeline/point_view.h"
 
 namespace orbslam {
 namespace {
@@ -38,7 +39,8 @@ Eigen::Matrix3d FundamentalMatrix(const Sensor& sensor, const Rigid3d& b_from_a)
   return direction_from_pixel.transpose() * EssentialMatrix(b_from_a) * direction_from_pixel;
 }
 
-/// Cosine of the angle at which the eyes of the virtual stereo pair see a point at this depth; 1 without depth.
+/// Cosine of the angle at which the eyes of the virtual stereo pair see a point at this depth; 1 without
+/// depth.
 double DepthParallaxCos(const Sensor& sensor, const View& view, int i) {
   if (!view.features->HasDepth(i)) return 1.0;
   const double baseline_m = sensor.intrinsics.bf / sensor.intrinsics.fx;
@@ -46,34 +48,29 @@ double DepthParallaxCos(const Sensor& sensor, const View& view, int i) {
 }
 
 bool Reprojects(const Sensor& sensor, const View& view, int i, const Eigen::Vector3d& x_world) {
-  const Eigen::Vector3d x_camera = view.camera_from_world * x_world;
-  if (x_camera.z() <= 0) return false;
-  const Eigen::Vector3d predicted = sensor.intrinsics.Project(x_camera);
-  const cv::Point2f& pixel = view.features->pixels[i];
-  const double information = sensor.pyramid.InverseVariance(view.features->levels[i]);
-  const double chi2_mono = ((predicted.x() - pixel.x) * (predicted.x() - pixel.x) +
-                            (predicted.y() - pixel.y) * (predicted.y() - pixel.y)) * information;
-  const double right_u = view.features->right_u[i];
-  if (right_u < 0) return chi2_mono <= 5.991;
-  return chi2_mono + (predicted.z() - right_u) * (predicted.z() - right_u) * information <= 7.815;
+  return IsWithinGate(sensor, view.camera_from_world * x_world, *view.features, i);
 }
 
 /// The ratio of the distances must be that of the pyramid levels, within a level and a half.
-bool ScalesAgree(const Sensor& sensor, const View& a, int i, const View& b, int j, const Eigen::Vector3d& x_world) {
-  const double distance_ratio = (a.camera_from_world * x_world).norm() / (b.camera_from_world * x_world).norm();
+bool ScalesAgree(const Sensor& sensor, const View& a, int i, const View& b, int j,
+                 const Eigen::Vector3d& x_world) {
+  const double distance_ratio =
+      (a.camera_from_world * x_world).norm() / (b.camera_from_world * x_world).norm();
   const double level_ratio =
       sensor.pyramid.Scale(b.features->levels[j]) / sensor.pyramid.Scale(a.features->levels[i]);
   const double tolerance = 1.5 * sensor.pyramid.Scale(sensor.pyramid.num_levels() > 1 ? 1 : 0);
   return distance_ratio * tolerance > level_ratio && distance_ratio < level_ratio * tolerance;
 }
 
-std::optional<Eigen::Vector3d> LocatePoint(const Sensor& sensor, const MappingOptions& options, const View& a, int i,
-                                           const View& b, int j) {
+std::optional<Eigen::Vector3d> LocatePoint(const Sensor& sensor, const MappingOptions& options, const View& a,
+                                           int i, const View& b, int j) {
   const Rigid3d a_from_b = a.camera_from_world * Inverse(b.camera_from_world);
   const Eigen::Vector3d direction_a = Direction(sensor, a, i), direction_b = Direction(sensor, b, j);
   const double ray_cos = direction_a.normalized().dot((a_from_b.rotation * direction_b).normalized());
   const double depth_cos_a = DepthParallaxCos(sensor, a, i), depth_cos_b = DepthParallaxCos(sensor, b, j);
-  const auto world = [](const View& view, const Eigen::Vector3d& x) { return Inverse(view.camera_from_world) * x; };
+  const auto world = [](const View& view, const Eigen::Vector3d& x) {
+    return Inverse(view.camera_from_world) * x;
+  };
   if (ray_cos > 0 && ray_cos < std::min(depth_cos_a, depth_cos_b) && ray_cos < options.min_parallax_cos) {
     const auto x_a = TriangulateMidpoint(a_from_b, direction_a, direction_b);
     return x_a ? std::optional(world(a, *x_a)) : std::nullopt;
@@ -88,11 +85,14 @@ struct NewPoint {
   int keypoint_a, keypoint_b;
 };
 
-std::vector<NewPoint> LocatePoints(const Sensor& sensor, const MappingOptions& options, const View& a, const View& b) {
+std::vector<NewPoint> LocatePoints(const Sensor& sensor, const MappingOptions& options, const View& a,
+                                   const View& b) {
   const Rigid3d b_from_a = b.camera_from_world * Inverse(a.camera_from_world);
-  if (b_from_a.translation.norm() < sensor.intrinsics.bf / sensor.intrinsics.fx) return {};  // depth knows better
-  const std::vector<int> match = SearchByEpipolarLine(*a.features, a.free_keypoints, *b.features, b.free_keypoints,
-                                                      FundamentalMatrix(sensor, b_from_a), sensor.pyramid);
+  if (b_from_a.translation.norm() < sensor.intrinsics.bf / sensor.intrinsics.fx)
+    return {};  // depth knows better
+  const std::vector<int> match =
+      SearchByEpipolarLine(*a.features, a.free_keypoints, *b.features, b.free_keypoints,
+                           FundamentalMatrix(sensor, b_from_a), sensor.pyramid);
   std::vector<NewPoint> found;
   for (size_t q = 0; q < match.size(); ++q) {
     if (match[q] < 0) continue;
@@ -108,8 +108,8 @@ std::vector<NewPoint> LocatePoints(const Sensor& sensor, const MappingOptions& o
 
 }  // namespace
 
-std::vector<MapPointId> CreatePoints(const Sensor& sensor, const MappingOptions& options, KeyFrameId keyframe_id,
-                                     Map* map) {
+std::vector<MapPointId> CreatePoints(const Sensor& sensor, const MappingOptions& options,
+                                     KeyFrameId keyframe_id, Map* map) {
   std::vector<MapPointId> created;
   std::vector<KeyFrameId> neighbors;
   {

@@ -10,12 +10,13 @@ namespace {
 
 class Search {
  public:
-  Search(const FrameFeatures& features, std::span<const char> is_taken, const ProjectionSearchOptions& options)
+  Search(const FrameFeatures& features, std::span<const char> is_taken,
+         const ProjectionSearchOptions& options)
       : features_(features), is_taken_(is_taken), options_(options) {}
 
   NearestTwo Find(const ProjectionQuery& query) {
-    features_.grid.Near(query.u, query.v, query.radius_px, features_.pixels, features_.levels, query.min_level,
-                        query.max_level, &candidates_);
+    features_.grid.Near(query.u, query.v, query.radius_px, features_.pixels, features_.levels,
+                        query.min_level, query.max_level, &candidates_);
     std::erase_if(candidates_, [&](int i) { return !IsAllowed(query, i); });
     const NearestTwo nearest = FindNearestTwo(query.descriptor, features_.descriptors, candidates_);
     if (nearest.distance > options_.max_distance || IsAmbiguous(nearest)) return {};
@@ -30,7 +31,8 @@ class Search {
   }
 
   bool IsAmbiguous(const NearestTwo& nearest) const {
-    return nearest.second_index >= 0 && features_.levels[nearest.index] == features_.levels[nearest.second_index] &&
+    return nearest.second_index >= 0 &&
+           features_.levels[nearest.index] == features_.levels[nearest.second_index] &&
            nearest.distance > options_.max_ratio * nearest.second_distance;
   }
 

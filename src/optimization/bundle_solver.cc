@@ -113,8 +113,7 @@ std::vector<char> BundleSolver::Classify() const {
     const BundleObservation& o = input_.observations[i];
     const Eigen::Vector3d x = poses[o.pose] * points_[o.point];
     if (!(x.z() >= kMinDepthM)) continue;
-    Eigen::Vector3d error = input_.intrinsics.Project(x) - o.pixel;
-    if (IsMono(o)) error.z() = 0;
+    const Eigen::Vector3d error = input_.intrinsics.ReprojectionError(x, o.pixel);
     const double max_chi2 = IsMono(o) ? options_.max_chi2_mono : options_.max_chi2_stereo;
     is_inlier[i] = o.inverse_variance * error.squaredNorm() <= max_chi2;
   }

@@ -67,9 +67,7 @@ inline PoseCost::Projected PoseCost::Project(const Observation& o, const State& 
   }
   p.is_in_front = p.x.z() > kMinDepthM;
   p.inverse_depth = 1.0 / p.x.z();
-  const double u = intrinsics_.fx * p.x.x() * p.inverse_depth + intrinsics_.cx;
-  const double v = intrinsics_.fy * p.x.y() * p.inverse_depth + intrinsics_.cy;
-  p.residual = Eigen::Vector3d(u, v, u - intrinsics_.bf * p.inverse_depth) - o.pixel;
+  p.residual = intrinsics_.ReprojectionError(p.x, o.pixel);
   p.chi2 = p.residual.dot(o.information.cwiseProduct(p.residual));
   return p;
 }
@@ -99,17 +97,17 @@ inline void PoseCost::Accumulate(const Observation& o, const State& state, PoseN
   double weight;
   sums->cost += Loss(o, p, &weight);
   const Eigen::Vector3d w = weight * o.information;
-  // Rows of the projection's Jacobian: (a, 0, b), (0, c, d), (a, 0, e).
+  // Rows of the projection's Jacobian: (a, 0, b), (0, c, d), (0, 0, e).
   const double a = intrinsics_.fx * p.inverse_depth, b = -a * p.x.x() * p.inverse_depth;
   const double c = intrinsics_.fy * p.inverse_depth, d = -c * p.x.y() * p.inverse_depth;
-  const double e = b + intrinsics_.bf * p.inverse_depth * p.inverse_depth;
-  const double xz = a * (w[0] * b + w[2] * e), yz = w[1] * c * d;
+  const double e = -intrinsics_.bf * p.inverse_depth * p.inverse_depth;
+  const double xz = w[0] * a * b, yz = w[1] * c * d;
   Eigen::Matrix3d jtj;
-  jtj << a * a * (w[0] + w[2]), 0, xz,  //
+  jtj << w[0] * a * a, 0, xz,  //
       0, w[1] * c * c, yz,              //
       xz, yz, w[0] * b * b + w[1] * d * d + w[2] * e * e;
   const Eigen::Vector3d wr = w.cwiseProduct(p.residual);
-  const Eigen::Vector3d jtr(a * (wr[0] + wr[2]), c * wr[1], b * wr[0] + d * wr[1] + e * wr[2]);
+  const Eigen::Vector3d jtr(a * wr[0], c * wr[1], b * wr[0] + d * wr[1] + e * wr[2]);
   if (o.is_backward) {
     // d x_a = -(a_rotation_b) (d_w x y + d_t): the same form after turning into frame b.
     sums->Add(p.rotated, state.a_rotation_b.transpose() * jtj * state.a_rotation_b,

@@ -14,7 +14,7 @@ namespace orbslam {
 /// Nearer to the camera's plane than this, or behind it, nothing is seen.
 constexpr double kMinDepthM = 1e-3;
 
-/// Reprojection error (u, v, u_right) over its standard deviation; the third is 0 for a keypoint without
+/// Reprojection error (u, v, disparity) over its standard deviation; the third is 0 for a keypoint without
 /// depth. Parameters: rotation (quaternion x y z w) and translation of camera_from_world, the point in the
 /// world. Behind the camera the error is a constant, so that no step gains by moving a point there.
 ///
@@ -26,7 +26,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 4, 3, 3> {
       : intrinsics_(&intrinsics),
         pixel_(observation.pixel),
         weight_(Eigen::Vector3d::Constant(std::sqrt(observation.inverse_variance))) {
-    if (observation.pixel.z() < 0) weight_.z() = 0;
+    if (observation.pixel.z() < 0) weight_.z() = 0;  // no depth: no derivative either
   }
 
   /// An inactive one is zero everywhere.
@@ -41,7 +41,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 4, 3, 3> {
       return true;
     }
     Eigen::Map<Eigen::Vector3d> error(residuals);
-    error = weight_.cwiseProduct(intrinsics_->Project(x) - pixel_);
+    error = weight_.cwiseProduct(intrinsics_->ReprojectionError(x, pixel_));
     if (jacobians == nullptr) return true;
 
     const Eigen::Matrix3d projection = ProjectionJacobian(x);
@@ -75,11 +75,11 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 4, 3, 3> {
     const double inverse_z = 1 / x.z();
     const double a = intrinsics_->fx * inverse_z, b = -a * x.x() * inverse_z;
     const double c = intrinsics_->fy * inverse_z, d = -c * x.y() * inverse_z;
-    const double e = b + intrinsics_->bf * inverse_z * inverse_z;
+    const double e = -intrinsics_->bf * inverse_z * inverse_z;
     Eigen::Matrix3d j;
     j << weight_[0] * a, 0, weight_[0] * b,  //
         0, weight_[1] * c, weight_[1] * d,   //
-        weight_[2] * a, 0, weight_[2] * e;
+        0, 0, weight_[2] * e;
     return j;
   }
 

@@ -5,8 +5,6 @@
 
 namespace orbslam {
 
-int Frame::NumPoints() const {
-  return static_cast<int>(std::ranges::count_if(points, &MapPointId::IsValid));
-}
+int Frame::NumPoints() const { return static_cast<int>(std::ranges::count_if(points, &MapPointId::IsValid)); }
 
 }  // namespace orbslam

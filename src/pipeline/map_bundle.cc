@@ -36,7 +36,8 @@ std::vector<KeyFrameId> OtherObservers(const MapData& map, const std::set<MapPoi
 
 }  // namespace
 
-MapBundle GatherBundle(const MapData& map, const Sensor& sensor, const std::set<KeyFrameId>& moving, int max_fixed) {
+MapBundle GatherBundle(const MapData& map, const Sensor& sensor, const std::set<KeyFrameId>& moving,
+                       int max_fixed) {
   MapBundle bundle{.problem = {.intrinsics = sensor.intrinsics}, .epoch = map.epoch()};
   const std::set<MapPointId> points = PointsSeenBy(map, moving);
   std::map<KeyFrameId, int> index_of;
@@ -58,7 +59,8 @@ MapBundle GatherBundle(const MapData& map, const Sensor& sensor, const std::set<
       if (pose == index_of.end()) continue;
       const FrameFeatures& features = *map.Find(keyframe)->features;
       const cv::Point2f& pixel = features.pixels[keypoint];
-      bundle.problem.observations.push_back({pose->second, point_index,
+      bundle.problem.observations.push_back({pose->second,
+                                             point_index,
                                              {pixel.x, pixel.y, features.right_u[keypoint]},
                                              sensor.pyramid.InverseVariance(features.levels[keypoint])});
     }

@@ -5,9 +5,12 @@ namespace orbslam {
 
 const char* Name(TrackingState state) {
   switch (state) {
-    case TrackingState::kNotInitialized: return "NOT_INITIALIZED";
-    case TrackingState::kOk: return "OK";
-    case TrackingState::kLost: return "LOST";
+    case TrackingState::kNotInitialized:
+      return "NOT_INITIALIZED";
+    case TrackingState::kOk:
+      return "OK";
+    case TrackingState::kLost:
+      return "LOST";
   }
   return "?";
 }

@@ -8,13 +8,9 @@
 namespace orbslam {
 namespace {
 
-// Chi-square at 95 %: 2 and 3 degrees of freedom.
-constexpr double kMaxChi2Mono = 5.991, kMaxChi2Stereo = 7.815;
-
 struct FusionCandidates {
   std::shared_ptr<const FrameFeatures> features;
-  std::vector<ProjectionQuery> queries;
-  std::vector<MapPointId> points;  // one a query
+  PointQueries wanted;
 };
 
 FusionCandidates Gather(const MapData& map, const Sensor& sensor, KeyFrameId keyframe_id,
@@ -28,26 +24,9 @@ FusionCandidates Gather(const MapData& map, const Sensor& sensor, KeyFrameId key
     if (point == nullptr) continue;
     const auto seen = std::ranges::lower_bound(point->observations, keyframe_id, {}, &Observation::keyframe);
     if (seen != point->observations.end() && seen->keyframe == keyframe_id) continue;
-    auto view = PredictView(*point, keyframe->camera_from_world, sensor);
-    if (!view) continue;
-    view->query.radius_px *= static_cast<float>(radius_px);
-    candidates.queries.push_back(view->query);
-    candidates.points.push_back(id);
+    candidates.wanted.Add(*point, keyframe->camera_from_world, sensor, radius_px);
   }
   return candidates;
-}
-
-bool Agrees(const ProjectionQuery& query, const FrameFeatures& features, int keypoint, const Sensor& sensor) {
-  const cv::Point2f& pixel = features.pixels[keypoint];
-  const double du = pixel.x - query.u, dv = pixel.y - query.v;
-  double error2 = du * du + dv * dv;
-  double limit = kMaxChi2Mono;
-  if (features.right_u[keypoint] >= 0) {
-    const double dr = features.right_u[keypoint] - query.right_u;
-    error2 += dr * dr;
-    limit = kMaxChi2Stereo;
-  }
-  return error2 * sensor.pyramid.InverseVariance(features.levels[keypoint]) <= limit;
 }
 
 /// Both points are alive and different; the more often seen survives.
@@ -58,19 +37,21 @@ void FuseInto(MapPointId a, MapPointId b, MapData* map) {
 
 }  // namespace
 
-int FusePoints(const Sensor& sensor, KeyFrameId keyframe_id, std::span<const MapPointId> points, double radius_px,
-               Map* map) {
-  const FusionCandidates candidates = Gather(*map->Read(), sensor, keyframe_id, points, radius_px);
-  if (candidates.queries.empty()) return 0;
+int FusePoints(const Sensor& sensor, KeyFrameId keyframe_id, std::span<const MapPointId> points,
+               double radius_px, Map* map) {
+  const auto [features, wanted] = Gather(*map->Read(), sensor, keyframe_id, points, radius_px);
+  if (wanted.queries.empty()) return 0;
   const std::vector<int> match =
-      SearchByProjection(candidates.queries, *candidates.features, {}, {.max_distance = kStrictMaxDistance});
+      SearchByProjection(wanted.queries, *features, {}, {.max_distance = kStrictMaxDistance});
   int num_fused = 0;
   const auto guard = map->Write();
   for (size_t q = 0; q < match.size(); ++q) {
-    if (match[q] < 0 || !Agrees(candidates.queries[q], *candidates.features, match[q], sensor)) continue;
+    if (match[q] < 0) continue;
     const KeyFrame* keyframe = guard->Find(keyframe_id);
-    const MapPointId id = guard->Resolve(candidates.points[q]);
+    const MapPointId id = guard->Resolve(wanted.points[q]);
     if (keyframe == nullptr || !id.IsValid()) continue;
+    const Eigen::Vector3d x_camera = keyframe->camera_from_world * guard->Find(id)->position_world;
+    if (!IsWithinGate(sensor, x_camera, *features, match[q])) continue;
     const MapPointId present = keyframe->points[match[q]];
     if (present == id) continue;
     if (present.IsValid()) {

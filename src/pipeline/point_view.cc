@@ -3,8 +3,8 @@
 
 namespace orbslam {
 
-std::optional<PointView> PredictView(const MapPoint& point, const Rigid3d& camera_from_world, const Sensor& sensor,
-                                     double min_view_cos) {
+std::optional<PointView> PredictView(const MapPoint& point, const Rigid3d& camera_from_world,
+                                     const Sensor& sensor, double min_view_cos) {
   const Eigen::Vector3d x_camera = camera_from_world * point.position_world;
   if (x_camera.z() <= 0) return std::nullopt;
   const Eigen::Vector3f pixel = sensor.intrinsics.Project(x_camera).cast<float>();
@@ -23,6 +23,25 @@ std::optional<PointView> PredictView(const MapPoint& point, const Rigid3d& camer
                              .min_level = level - 1,
                              .max_level = level},
                    .view_cos = view_cos};
+}
+
+bool IsWithinGate(const Sensor& sensor, const Eigen::Vector3d& x_camera, const FrameFeatures& features,
+                  int i) {
+  if (x_camera.z() <= 0) return false;
+  const cv::Point2f& pixel = features.pixels[i];
+  const Eigen::Vector3d error =
+      sensor.intrinsics.ReprojectionError(x_camera, {pixel.x, pixel.y, features.right_u[i]});
+  const double max_chi2 = features.right_u[i] < 0 ? 5.991 : 7.815;
+  return error.squaredNorm() * sensor.pyramid.InverseVariance(features.levels[i]) <= max_chi2;
+}
+
+void PointQueries::Add(const MapPoint& point, const Rigid3d& camera_from_world, const Sensor& sensor,
+                       double radius_px) {
+  auto view = PredictView(point, camera_from_world, sensor);
+  if (!view) return;
+  view->query.radius_px *= static_cast<float>(radius_px);
+  queries.push_back(view->query);
+  points.push_back(point.id);
 }
 
 }  // namespace orbslam

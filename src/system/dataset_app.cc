@@ -9,6 +9,7 @@
 #include "orbslam/system/run_report.h"
 #include "orbslam/util/file.h"
 #include "orbslam/util/text.h"
+#include "orbslam/vocabulary/vocabulary_file.h"
 #include "version.h"
 
 namespace orbslam {
@@ -36,10 +37,12 @@ Status PrepareOutputFolder(const std::string& folder, const Settings& settings) 
   return WriteFileAtomically(folder + "/settings.yaml", EffectiveSettingsYaml(settings));
 }
 
-Status CheckVocabulary(const std::string& path) {
-  if (path == "-") return OkStatus();
-  const Result<std::string> content = ReadFile(path);
-  return content ? OkStatus() : Status(content.error());
+/// nullptr for "-".
+Result<std::shared_ptr<const Vocabulary>> OpenVocabulary(const std::string& path) {
+  if (path == "-") return std::shared_ptr<const Vocabulary>();
+  Result<Vocabulary> vocabulary = ReadVocabulary(path);
+  if (!vocabulary) return vocabulary.error();
+  return std::make_shared<const Vocabulary>(*std::move(vocabulary));
 }
 
 /// Writes all that there is, even if one file fails.
@@ -47,15 +50,17 @@ bool WriteResults(const DatasetJob& job, const std::string& report, const System
   const std::string folder = job.output_folder + "/";
   const bool camera_done = Succeeded(system.SaveTrajectory(folder + "CameraTrajectory.txt"));
   const bool keyframes_done = Succeeded(system.SaveKeyFrameTrajectory(folder + "KeyFrameTrajectory.txt"));
+  const bool map_done = job.save_map_path.empty() || Succeeded(system.SaveMap(job.save_map_path));
   const bool report_done = Succeeded(WriteFileAtomically(folder + "run.json", report));
-  return camera_done && keyframes_done && report_done;
+  return camera_done && keyframes_done && map_done && report_done;
 }
 
 /// What a run without a single pose must have been given; nullptr: there are poses.
 const char* ExplainFailure(const RunSummary& summary, int num_tracked) {
   if (num_tracked > 0) return nullptr;
   if (summary.frames_processed == 0) return "no frame of the sequence could be read";
-  return "no camera pose could be computed: the images show too few corners with depth (dark, white or without "
+  return "no camera pose could be computed: the images show too few corners with depth (dark, white or "
+         "without "
          "depth?)";
 }
 
@@ -84,16 +89,24 @@ int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
   if (!sequence) return Succeeded(sequence.error()), kExitError;
   warnings.insert(warnings.end(), sequence->warnings.begin(), sequence->warnings.end());
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-  if (!Succeeded(CheckVocabulary(job.vocabulary_path))) return kExitError;
+  const auto vocabulary = OpenVocabulary(job.vocabulary_path);
+  if (!vocabulary) return Succeeded(vocabulary.error()), kExitError;
   if (!Succeeded(PrepareOutputFolder(job.output_folder, *settings))) return kExitError;
 
-  System system(*settings);
+  System system(*settings, {.mode = {.is_sequential = job.sequential, .is_live = job.run.realtime},
+                            .vocabulary = *vocabulary});
+  if (!job.load_map_path.empty() && !Succeeded(system.LoadMap(job.load_map_path))) return kExitError;
+  if (job.localize_only) system.ActivateLocalizationMode();
   const RunSummary summary = RunSequence(*sequence, *settings, job.run, is_interrupted, &system);
   system.Shutdown();
 
   const bool is_written =
       WriteResults(job, FormatRunReport(job.command_line, *settings, warnings, summary, system), system);
   if (job.run.progress != Progress::Mode::kQuiet) PrintSummary(job, summary, system);
+  if (const auto failure = system.failure()) {
+    spdlog::error("internal error, results are incomplete: {}", failure->message);
+    return kExitError;
+  }
   if (summary.was_interrupted) return kExitInterrupted;
   if (const char* reason = ExplainFailure(summary, system.counts().tracked)) {
     spdlog::error("{}: {}", job.sequence_folder, reason);

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 
 Json TimingsJson(const System& system) {
   Json json = Json::object();
-  for (const auto& [name, s] : system.timings()) {
-    json[name] = {{"count", s.count},   {"mean_s", s.mean_s}, {"median_s", s.median_s},
+  for (const auto& [name, s] : system.Timings()) {
+    json[name] = {{"count", s.count}, {"mean_s", s.mean_s}, {"median_s", s.median_s},
                   {"p90_s", s.p90_s}, {"p99_s", s.p99_s},   {"max_s", s.max_s}};
   }
   return json;
@@ -46,7 +46,9 @@ std::string FormatRunReport(const std::vector<std::string>& command_line, const 
                     {"lost", summary.frames_lost}};
   json["coverage"] =
       summary.frames_listed > 0 ? static_cast<double>(counts.tracked) / summary.frames_listed : 0.0;
-  json["map"] = {{"keyframes", counts.keyframes}, {"points", counts.map_points}};
+  json["maps"] = counts.maps;
+  json["map"] = {
+      {"keyframes", counts.keyframes}, {"points", counts.map_points}, {"loops_closed", counts.loops}};
   json["timings"] = TimingsJson(system);
   json["startup_s"] = summary.startup_s;
   json["wall_s"] = summary.wall_s;
@@ -61,8 +63,8 @@ std::string FormatTrackingTimes(std::vector<double> tracking_s) {
   std::ranges::sort(tracking_s);
   const double mean_s =
       std::accumulate(tracking_s.begin(), tracking_s.end(), 0.0) / static_cast<double>(tracking_s.size());
-  return fmt::format("median tracking time: {:.6f}\nmean tracking time: {:.6f}\n", tracking_s[tracking_s.size() / 2],
-                     mean_s);
+  return fmt::format("median tracking time: {:.6f}\nmean tracking time: {:.6f}\n",
+                     tracking_s[tracking_s.size() / 2], mean_s);
 }
 
 }  // namespace orbslam

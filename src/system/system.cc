@@ -1,36 +1,145 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/system/system.h"
 
-namespace orbslam {
+#include <spdlog/spdlog.h>
 
-System::System(const Settings& settings)
-    : sensor_(settings.camera, settings.depth, settings.orb, settings.fps),
-      map_(sensor_.pyramid),
-      tracking_(sensor_, settings.orb, TrackingOptions(), KeyFramePolicyOptions(), &map_) {}
+#include <algorithm>
+#include <filesystem>
+
+#include "orbslam/io/map_file.h"
+#include "orbslam/util/check.h"
+
+namespace orbslam {
+namespace {
+
+/// "a/b.txt" -> "a/b_2.txt".
+std::string Numbered(const std::string& path, int number) {
+  if (number == 1) return path;
+  const std::filesystem::path p(path);
+  return (p.parent_path() / (p.stem().string() + "_" + std::to_string(number) + p.extension().string()))
+      .string();
+}
+
+}  // namespace
+
+System::System(const Settings& settings, SystemOptions options)
+    : settings_(settings),
+      options_(std::move(options)),
+      sensor_(settings.camera, settings.depth, settings.orb, settings.fps) {
+  StartSession(MapData(sensor_.pyramid));
+}
+
+System::~System() { Shutdown(); }
+
+void System::StartSession(MapData map) {
+  sessions_.push_back(std::make_unique<MapSession>(sensor_, settings_.orb, options_.mode, options_.vocabulary,
+                                                   std::move(map)));
+  sessions_.back()->SetLocalizationMode(is_localizing_);
+}
 
 FrameReport System::TrackRgbd(RgbdImage image) {
+  const cv::Size size(settings_.camera.width, settings_.camera.height);
+  ORBSLAM_CHECK(image.gray.type() == CV_8UC1 && image.gray.size() == size);
+  ORBSLAM_CHECK(image.depth_m.type() == CV_32FC1 && image.depth_m.size() == size);
   image.id = FrameId(num_frames_++);
-  FrameReport report = tracking_.Process(image);
-  trajectory_.Add(image, report);
+  const FrameReport report = sessions_.back()->Track(image);
+  StartNewMapIfLost(report);
   return report;
 }
 
-void System::Shutdown() {}
+void System::StartNewMapIfLost(const FrameReport& report) {
+  if (report.state != TrackingState::kLost) {
+    last_tracked_s_ = report.timestamp_s;
+    return;
+  }
+  const bool is_young = map().Read()->num_keyframes() <= options_.young_map_keyframes;
+  if (!is_young || is_localizing_ || report.timestamp_s - last_tracked_s_ < options_.max_lost_s) return;
+  spdlog::warn("lost for {:.1f} s in a young map: starting map {}", report.timestamp_s - last_tracked_s_,
+               sessions_.size() + 1);
+  sessions_.back()->Stop();
+  StartSession(MapData(sensor_.pyramid));
+}
+
+void System::Shutdown() { sessions_.back()->Stop(); }
+
+void System::Reset() {
+  sessions_.clear();
+  num_frames_ = 0;
+  StartSession(MapData(sensor_.pyramid));
+}
+
+void System::ActivateLocalizationMode() {
+  is_localizing_ = true;
+  sessions_.back()->SetLocalizationMode(true);
+}
+
+void System::DeactivateLocalizationMode() {
+  is_localizing_ = false;
+  sessions_.back()->SetLocalizationMode(false);
+}
+
+std::vector<const MapSession*> System::SessionsLargestFirst() const {
+  std::vector<const MapSession*> sorted;
+  for (const auto& session : sessions_) sorted.push_back(session.get());
+  std::ranges::stable_sort(sorted, std::ranges::greater{},
+                           [](const MapSession* session) { return session->trajectory().num_poses(); });
+  // A map in which nothing was tracked has no trajectory, unless it is the only one.
+  std::erase_if(sorted, [&](const MapSession* session) {
+    return session != sorted.front() && session->trajectory().num_poses() == 0;
+  });
+  return sorted;
+}
 
 Status System::SaveTrajectory(const std::string& path) const {
-  return WriteTrajectory(path, trajectory_.Camera(map_));
+  int number = 0;
+  for (const MapSession* session : SessionsLargestFirst()) {
+    const Status status =
+        WriteTrajectory(Numbered(path, ++number), session->trajectory().Camera(session->map()));
+    if (!status) return status;
+  }
+  return OkStatus();
 }
 
 Status System::SaveKeyFrameTrajectory(const std::string& path) const {
-  return WriteTrajectory(path, trajectory_.KeyFrames(map_));
+  int number = 0;
+  for (const MapSession* session : SessionsLargestFirst()) {
+    const Status status =
+        WriteTrajectory(Numbered(path, ++number), session->trajectory().KeyFrames(session->map()));
+    if (!status) return status;
+  }
+  return OkStatus();
+}
+
+Status System::SaveMap(const std::string& path) const {
+  sessions_.back()->WaitUntilIdle();
+  return WriteMap(path, *map().Read());
+}
+
+Status System::LoadMap(const std::string& path) {
+  Result<MapData> loaded = ReadMap(path);
+  if (!loaded) return loaded.error();
+  if (loaded->pyramid() != sensor_.pyramid) {
+    return Error{
+        path +
+        ": was made with another ORBextractor.nLevels or ORBextractor.scaleFactor; use those settings"};
+  }
+  sessions_.clear();
+  StartSession(*std::move(loaded));
+  return OkStatus();
 }
 
 System::Counts System::counts() const {
-  const auto guard = map_.Read();
-  return {.frames = static_cast<int>(num_frames_),
-          .tracked = trajectory_.num_poses(),
-          .keyframes = guard->num_keyframes(),
-          .map_points = guard->num_points()};
+  Counts counts{.frames = static_cast<int>(num_frames_), .maps = static_cast<int>(sessions_.size())};
+  for (const auto& session : sessions_) {
+    counts.tracked += session->trajectory().num_poses();
+    counts.loops += session->num_loops();
+  }
+  const auto guard = map().Read();
+  counts.keyframes = guard->num_keyframes();
+  counts.map_points = guard->num_points();
+  return counts;
 }
+
+std::optional<Error> System::failure() const { return sessions_.back()->failure(); }
 
 }  // namespace orbslam

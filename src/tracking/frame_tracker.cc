@@ -20,7 +20,8 @@ struct LevelRange {
   int min, max;
 };
 
-/// Which levels a point of `level` may be seen at now: an approaching camera sees it larger, a receding one smaller.
+/// Which levels a point of `level` may be seen at now: an approaching camera sees it larger, a receding one
+/// smaller.
 LevelRange NextLevels(int level, double advance_m, double baseline_m) {
   constexpr int kMaxLevel = 1000;
   if (advance_m > baseline_m) return {level, kMaxLevel};
@@ -44,8 +45,8 @@ Queries ProjectLastFrame(const Map& map, const Sensor& sensor, const Frame& last
     if (!sensor.bounds.Contains(pixel.x(), pixel.y())) continue;
     const auto [min_level, max_level] = NextLevels(features.levels[i], advance_m, baseline_m);
     const auto radius = static_cast<float>(radius_px * sensor.pyramid.Scale(features.levels[i]));
-    result.queries.push_back({features.descriptors[i], pixel.x(), pixel.y(), pixel.z(), radius, min_level, max_level,
-                              features.angles_deg[i]});
+    result.queries.push_back({features.descriptors[i], pixel.x(), pixel.y(), pixel.z(), radius, min_level,
+                              max_level, features.angles_deg[i]});
     result.points.push_back(id);
   }
   return result;
@@ -54,11 +55,14 @@ Queries ProjectLastFrame(const Map& map, const Sensor& sensor, const Frame& last
 }  // namespace
 
 int FrameTracker::TrackLastFrame(const Frame& last, Frame* frame) const {
-  const ProjectionSearchOptions search{.max_distance = kLooseMaxDistance, .max_ratio = 1, .check_orientation = true};
+  const ProjectionSearchOptions search{
+      .max_distance = kLooseMaxDistance, .max_ratio = 1, .check_orientation = true};
   for (const double widening : {1.0, 2.0}) {
-    const Queries projected = ProjectLastFrame(map_, sensor_, last, *frame, widening * options_.motion_radius_px);
+    const Queries projected =
+        ProjectLastFrame(map_, sensor_, last, *frame, widening * options_.motion_radius_px);
     const std::vector<int> match = SearchByProjection(projected.queries, *frame->features, {}, search);
     if (std::ranges::count_if(match, [](int m) { return m >= 0; }) < options_.min_motion_matches) continue;
+    std::ranges::fill(frame->points, MapPointId());
     for (size_t q = 0; q < match.size(); ++q) {
       if (match[q] >= 0) frame->points[match[q]] = projected.points[q];
     }
@@ -73,7 +77,7 @@ int FrameTracker::TrackKeyFrame(KeyFrameId keyframe_id, Frame* frame) const {
   std::vector<int> with_point;
   {
     const auto guard = map_.Read();
-    const KeyFrame* keyframe = guard->Find(keyframe_id);
+    const KeyFrame* keyframe = guard->Find(guard->Resolve(keyframe_id));
     if (keyframe == nullptr) return 0;
     features = keyframe->features;
     points = keyframe->points;
@@ -85,12 +89,11 @@ int FrameTracker::TrackKeyFrame(KeyFrameId keyframe_id, Frame* frame) const {
   std::iota(all.begin(), all.end(), 0);
   const std::vector<int> match = SearchByDescriptor(*features, with_point, *frame->features, all,
                                                     {.max_ratio = options_.max_ratio_reference});
-  if (std::ranges::count_if(match, [](int m) { return m >= 0; }) < options_.min_reference_matches) return 0;
   std::ranges::fill(frame->points, MapPointId());
   for (size_t q = 0; q < match.size(); ++q) {
     if (match[q] >= 0) frame->points[match[q]] = points[with_point[q]];
   }
-  return RefinePose(map_, sensor_, frame);
+  return EstimatePose(map_, sensor_, frame);
 }
 
 }  // namespace orbslam

@@ -13,7 +13,8 @@ std::vector<int> KeypointsWithinReach(const FrameFeatures& features, double clos
     if (features.HasDepth(i)) with_depth.push_back(i);
   }
   std::ranges::stable_sort(with_depth, {}, [&](int i) { return features.depths_m[i]; });
-  const auto end = std::ranges::find_if(with_depth, [&](int i) { return features.depths_m[i] > close_limit_m; });
+  const auto end =
+      std::ranges::find_if(with_depth, [&](int i) { return features.depths_m[i] > close_limit_m; });
   const auto num_close = static_cast<int>(end - with_depth.begin());
   with_depth.resize(std::min<size_t>(with_depth.size(), std::max(num_close, min_count)));
   return with_depth;
@@ -49,13 +50,14 @@ void AddDepthPoints(const Sensor& sensor, int min_count, KeyFrameId keyframe, Fr
 
 }  // namespace
 
-KeyFrameId CreateKeyFrame(const Sensor& sensor, int min_depth_points, KeyFrameId parent_fallback, Frame* frame,
-                          Map* map) {
+std::optional<KeyFrameId> CreateKeyFrame(const Sensor& sensor, int min_depth_points,
+                                         KeyFrameId parent_fallback, uint64_t epoch, Frame* frame, Map* map) {
   const auto guard = map->Write();
+  if (guard->epoch() != epoch) return std::nullopt;
   const KeyFrameId id =
       guard->AddKeyFrame(frame->id, frame->timestamp_s, frame->camera_from_world, frame->features);
   AddObservations(id, frame, &*guard);
-  if (guard->num_keyframes() > 1) guard->ConnectToSpanningTree(id, parent_fallback);
+  if (guard->num_keyframes() > 1) guard->ConnectToSpanningTree(id, guard->Resolve(parent_fallback));
   AddDepthPoints(sensor, min_depth_points, id, frame, &*guard);
   return id;
 }

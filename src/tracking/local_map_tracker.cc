@@ -38,7 +38,8 @@ std::vector<KeyFrameId> LocalMapTracker::LocalKeyFrames(const MapData& map, cons
   std::ranges::sort(ranked);
   std::vector<KeyFrameId> local;
   const auto add = [&](KeyFrameId id) {
-    if (std::ssize(local) < options_.max_local_keyframes && id.IsValid() && std::ranges::count(local, id) == 0) {
+    if (std::ssize(local) < options_.max_local_keyframes && id.IsValid() &&
+        std::ranges::count(local, id) == 0) {
       local.push_back(id);
     }
   };
@@ -71,8 +72,9 @@ void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
       auto view = PredictView(*map.Find(id), frame.camera_from_world, sensor_, options_.min_view_cos);
       if (!view) continue;
       const bool is_head_on = view->view_cos > 0.998;
-      view->query.radius_px *= static_cast<float>(
-          options_.local_radius_factor * (is_head_on ? options_.local_radius_px : options_.local_radius_oblique_px));
+      view->query.radius_px *=
+          static_cast<float>(options_.local_radius_factor *
+                             (is_head_on ? options_.local_radius_px : options_.local_radius_oblique_px));
       queries_.push_back(view->query);
       candidates_.push_back(id);
     }

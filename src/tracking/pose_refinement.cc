@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/tracking/pose_refinement.h"
 
-#include "orbslam/optimization/pose_optimizer.h"
+#include "orbslam/optimization/absolute_pose.h"
 
 namespace orbslam {
 namespace {
 
-/// Follows fused points, drops erased ones, and gathers the rest. keypoints: whom each observation belongs to.
-PoseProblem Gather(const Map& map, const Sensor& sensor, Frame* frame, std::vector<int>* keypoints) {
-  PoseProblem problem{sensor.intrinsics, frame->camera_from_world, {}};
+void ForgetOutliers(const PoseResult& result, const std::vector<int>& keypoints, Frame* frame) {
+  for (size_t k = 0; k < keypoints.size(); ++k) {
+    if (!result.is_inlier[k]) frame->points[keypoints[k]] = MapPointId();
+  }
+}
+
+}  // namespace
+
+FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* frame) {
+  FramePoseProblem gathered{{sensor.intrinsics, frame->camera_from_world, {}}, {}};
   const FrameFeatures& features = *frame->features;
   const auto guard = map.Read();
   for (int i = 0; i < features.size(); ++i) {
@@ -17,24 +24,30 @@ PoseProblem Gather(const Map& map, const Sensor& sensor, Frame* frame, std::vect
     const MapPoint* point = guard->Find(frame->points[i]);
     if (point == nullptr) continue;
     const cv::Point2f& pixel = features.pixels[i];
-    problem.observations.push_back({point->position_world, {pixel.x, pixel.y, features.right_u[i]},
-                                    sensor.pyramid.InverseVariance(features.levels[i])});
-    keypoints->push_back(i);
+    gathered.problem.observations.push_back({point->position_world,
+                                             {pixel.x, pixel.y, features.right_u[i]},
+                                             sensor.pyramid.InverseVariance(features.levels[i])});
+    gathered.keypoints.push_back(i);
   }
-  return problem;
+  return gathered;
 }
 
-}  // namespace
-
 int RefinePose(const Map& map, const Sensor& sensor, Frame* frame) {
-  std::vector<int> keypoints;
-  const PoseProblem problem = Gather(map, sensor, frame, &keypoints);
+  const auto [problem, keypoints] = GatherPoseProblem(map, sensor, frame);
   const PoseResult result = OptimizePose(problem);
   frame->camera_from_world = result.camera_from_world;
-  for (size_t k = 0; k < keypoints.size(); ++k) {
-    if (!result.is_inlier[k]) frame->points[keypoints[k]] = MapPointId();
-  }
+  ForgetOutliers(result, keypoints, frame);
   return result.num_inliers;
+}
+
+int EstimatePose(const Map& map, const Sensor& sensor, Frame* frame) {
+  const auto [problem, keypoints] = GatherPoseProblem(map, sensor, frame);
+  Rng rng(/*seed=*/0, frame->id.value);
+  const auto estimate = EstimateAbsolutePose(sensor.intrinsics, problem.observations, {}, &rng);
+  if (!estimate) return 0;
+  frame->camera_from_world = estimate->camera_from_world;
+  ForgetOutliers(*estimate, keypoints, frame);
+  return RefinePose(map, sensor, frame);
 }
 
 }  // namespace orbslam

@@ -4,20 +4,22 @@
 #include <algorithm>
 
 #include "orbslam/tracking/keyframe_creator.h"
-#include "orbslam/tracking/keyframe_policy.h"
 #include "orbslam/util/resource_usage.h"
 
 namespace orbslam {
 
 Tracking::Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const TrackingOptions& options,
-                   const KeyFramePolicyOptions& policy, Map* map)
+                   const KeyFramePolicyOptions& policy, const PlaceIndex* places, Map* map)
     : sensor_(sensor),
       options_(options),
       policy_(policy),
       map_(map),
       extractor_(orb),
       frame_tracker_(*map, sensor_, options_),
-      local_map_tracker_(*map, sensor_, options_) {}
+      local_map_tracker_(*map, sensor_, options_),
+      relocalizer_(*map, places, sensor_, RelocalizerOptions()) {
+  if (map->Read()->num_keyframes() > 0) state_ = TrackingState::kLost;
+}
 
 FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper) {
   const CpuStopwatch stopwatch;
@@ -59,44 +61,75 @@ void Tracking::Initialize(Frame* frame, FrameReport* report) {
 }
 
 void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report) {
-  FollowMapCorrections();
-  const bool is_found = FindFirstPose(frame) && RefineOnLocalMap(frame, report);
-  state_ = is_found ? TrackingState::kOk : TrackingState::kLost;
-  if (!is_found) {
-    motion_.Forget();
-    return;
+  bool is_found = Locate(frame, report);
+  if (map_->Read()->epoch() != epoch_) {  // the map moved under us: what was found mixes old and new
+    std::ranges::fill(frame->points, MapPointId());
+    is_found = Locate(frame, report);
   }
-  motion_.Update(last_->timestamp_s, last_->camera_from_world, frame->timestamp_s, frame->camera_from_world);
-  if (WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
+  const bool was_tracking = state_ == TrackingState::kOk;
+  state_ = is_found ? TrackingState::kOk : TrackingState::kLost;
+  motion_.Forget();
+  if (!is_found) return;
+  if (was_tracking) {
+    motion_.Update(last_->timestamp_s, last_->camera_from_world, frame->timestamp_s,
+                   frame->camera_from_world);
+  }
+  if (makes_keyframes_ && WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
+}
+
+bool Tracking::Locate(Frame* frame, FrameReport* report) {
+  FollowMapCorrections();
+  return FindFirstPose(frame) && RefineOnLocalMap(frame, report);
 }
 
 /// The mapper may have moved the reference keyframe since the last frame was tied to it.
 void Tracking::FollowMapCorrections() {
-  if (const auto reference_from_world = map_->Read()->CameraFromWorld(reference_)) {
-    last_->camera_from_world = last_from_reference_ * *reference_from_world;
-  }
+  const auto guard = map_->Read();
+  epoch_ = guard->epoch();
+  const auto reference_from_world = guard->CameraFromWorld(reference_);
+  if (last_ && reference_from_world) last_->camera_from_world = last_from_reference_ * *reference_from_world;
 }
 
 bool Tracking::FindFirstPose(Frame* frame) {
   const auto measure = timer_.Measure("first_pose");
-  frame->camera_from_world =
-      motion_.Predict(last_->camera_from_world, frame->timestamp_s - last_->timestamp_s);
-  if (state_ == TrackingState::kOk && frame_tracker_.TrackLastFrame(*last_, frame) >= options_.min_inliers) return true;
-  frame->camera_from_world = last_->camera_from_world;
-  return frame_tracker_.TrackKeyFrame(reference_, frame) >= options_.min_inliers;
+  if (state_ == TrackingState::kOk) {
+    frame->camera_from_world =
+        motion_.Predict(last_->camera_from_world, frame->timestamp_s - last_->timestamp_s);
+    if (frame_tracker_.TrackLastFrame(*last_, frame) >= options_.min_strong_inliers) return true;
+  }
+  if (last_) return TakeBetterPose(frame);
+  return relocalizer_.Relocalize(frame);
+}
+
+/// The prediction was poor, or there was none: the reference keyframe may know better.
+bool Tracking::TakeBetterPose(Frame* frame) {
+  Frame other = *frame;
+  int num_inliers = frame_tracker_.TrackKeyFrame(reference_, &other);
+  if (num_inliers >= options_.min_inliers && state_ == TrackingState::kOk) {
+    num_inliers = std::max(num_inliers, frame_tracker_.TrackLastFrame(*last_, &other));
+  }
+  if (num_inliers > frame->NumPoints()) *frame = std::move(other);
+  if (frame->NumPoints() >= options_.min_inliers) return true;
+  return state_ == TrackingState::kLost && relocalizer_.Relocalize(frame);
 }
 
 bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   const auto measure = timer_.Measure("local_map");
   const LocalMapTracker::Result result = local_map_tracker_.Track(frame, &counter_);
   report->num_matches = result.num_inliers;
-  if (result.num_inliers < options_.min_local_inliers) return false;
+  const bool is_lost = state_ == TrackingState::kLost;
+  if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
+    return false;
   reference_ = result.reference;
   return true;
 }
 
 bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const {
-  if (!mapper.accepts_keyframe) return false;
+  return mapper.accepts_keyframe && NeedsKeyFrame(GatherEvidence(frame, num_inliers, mapper), policy_);
+}
+
+KeyFrameEvidence Tracking::GatherEvidence(const Frame& frame, int num_inliers,
+                                          const MapperLoad& mapper) const {
   KeyFrameEvidence evidence{.since_last_keyframe_s = frame.timestamp_s - last_keyframe_s_,
                             .num_inliers = num_inliers,
                             .is_mapper_idle = mapper.is_idle};
@@ -109,18 +142,21 @@ bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLo
   const auto guard = map_->Read();
   evidence.num_keyframes = guard->num_keyframes();
   const int min_observations = std::min(evidence.num_keyframes, 2);
-  for (const MapPointId id : guard->Find(reference_)->points) {
-    if (id.IsValid() && guard->Find(id)->NumObservations() >= min_observations) ++evidence.num_reference_points;
+  const KeyFrame* reference = guard->Find(guard->Resolve(reference_));
+  for (const MapPointId id : reference->points) {
+    if (id.IsValid() && guard->Find(id)->NumObservations() >= min_observations)
+      ++evidence.num_reference_points;
   }
-  return NeedsKeyFrame(evidence, policy_);
+  return evidence;
 }
 
 void Tracking::InsertKeyFrame(Frame* frame, FrameReport* report) {
   const auto measure = timer_.Measure("keyframe");
-  last_keyframe_ = CreateKeyFrame(sensor_, policy_.min_depth_points, last_keyframe_, frame, map_);
+  const auto created = CreateKeyFrame(sensor_, policy_.min_depth_points, last_keyframe_, epoch_, frame, map_);
+  if (!created) return;
+  last_keyframe_ = reference_ = *created;
   last_keyframe_s_ = frame->timestamp_s;
-  reference_ = last_keyframe_;
-  report->new_keyframe = KeyFrameReady{last_keyframe_, counter_.Take()};
+  report->new_keyframe = KeyFrameReady{*created, counter_.Take()};
 }
 
 void Tracking::Remember(Frame frame, FrameReport* report) {

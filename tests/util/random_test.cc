@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 namespace orbslam::test {
@@ -22,6 +23,22 @@ TEST(Rng, IsSplitMix64) {
 }
 
 TEST(Rng, RepeatsForTheSameKey) { EXPECT_EQ(Draws(Rng(1, 2, 3)), Draws(Rng(1, 2, 3))); }
+
+TEST(Rng, StreamsOfDifferentKeysShareNoNumbers) {
+  std::set<uint64_t> seen;
+  size_t num_draws = 0;
+  for (const uint64_t seed : {0, 1, 2}) {
+    for (const uint64_t frame : {0, 1, 2, 3}) {
+      for (const uint64_t purpose : {0, 1, 2, 3}) {
+        for (const uint64_t draw : Draws(Rng(seed, frame, purpose))) {
+          seen.insert(draw);
+          ++num_draws;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), num_draws);
+}
 
 TEST(Rng, BelowCoversItsRangeEvenly) {
   Rng rng(4);

@@ -9,12 +9,13 @@
 namespace orbslam {
 
 /// A pinhole camera with radial-tangential (Brown-Conrady) distortion, OpenCV's model. Camera frame: x right,
-/// y down, z forward, metres. Pixel (u, v): the centre of the top left pixel is (0, 0). Everything after feature
-/// extraction works in *undistorted* pixels: those that the same pinhole without distortion would see.
+/// y down, z forward, metres. Pixel (u, v): the centre of the top left pixel is (0, 0). Everything after
+/// feature extraction works in *undistorted* pixels: those that the same pinhole without distortion would
+/// see.
 struct PinholeCamera {
-  int width = 0, height = 0;                     // px
-  double fx = 0, fy = 0, cx = 0, cy = 0;         // px
-  std::array<double, 5> distortion{};            // k1 k2 p1 p2 k3
+  int width = 0, height = 0;              // px
+  double fx = 0, fy = 0, cx = 0, cy = 0;  // px
+  std::array<double, 5> distortion{};     // k1 k2 p1 p2 k3
 
   bool IsDistorted() const;
 

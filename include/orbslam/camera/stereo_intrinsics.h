@@ -22,6 +22,17 @@ struct StereoIntrinsics {
     const double u = fx * x.x() / x.z() + cx;
     return {u, fy * x.y() / x.z() + cy, u - bf / x.z()};
   }
+
+  /// Errors of u, v and disparity u - u_right, px, of a point in the camera frame against a measured (u, v,
+  /// u_right); the third is 0 where the measured u_right < 0: no depth. A depth camera measures depth
+  /// independently of where the corner was found, and disparity stands for it; ORB-SLAM2's error of u_right
+  /// contains that of u a second time.
+  Eigen::Vector3d ReprojectionError(const Eigen::Vector3d& x, const Eigen::Vector3d& measured) const {
+    const double inverse_z = 1.0 / x.z();
+    const double disparity = measured.x() - measured.z();
+    return {fx * x.x() * inverse_z + cx - measured.x(), fy * x.y() * inverse_z + cy - measured.y(),
+            measured.z() < 0 ? 0.0 : bf * inverse_z - disparity};
+  }
 };
 
 }  // namespace orbslam

@@ -8,7 +8,8 @@ namespace orbslam {
 /// [v]x, the matrix with [v]x w = v x w.
 Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v);
 
-/// Unit quaternion of the rotation vector w (radians), exact near zero. (Sola et al., "A micro Lie theory", 2018.)
+/// Unit quaternion of the rotation vector w (radians), exact near zero. (Sola et al., "A micro Lie theory",
+/// 2018.)
 Eigen::Quaterniond So3Exp(const Eigen::Vector3d& w);
 
 /// Rotation vector (radians, angle in [0, pi]) of a unit quaternion.

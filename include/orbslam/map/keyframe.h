@@ -26,11 +26,12 @@ struct KeyFrame {
   double timestamp_s = 0;
   Rigid3d camera_from_world;
   std::shared_ptr<const FrameFeatures> features;
-  std::vector<MapPointId> points;      // one a keypoint; invalid: none
-  std::vector<Covisible> covisibles;   // ascending in id; exact: every edit of an observation keeps it up to date
-  KeyFrameId parent;                   // in the spanning tree; invalid: the root
+  std::vector<MapPointId> points;  // one a keypoint; invalid: none
+  std::vector<Covisible>
+      covisibles;     // ascending in id; exact: every edit of an observation keeps it up to date
+  KeyFrameId parent;  // in the spanning tree; invalid: the root
   std::set<KeyFrameId> children;
-  std::set<KeyFrameId> loop_edges;     // never culled while it has any
+  std::set<KeyFrameId> loop_edges;  // never culled while it has any
 
   Eigen::Vector3d CenterWorld() const { return Inverse(camera_from_world).translation; }
   /// Those that share at least min_shared points, most first (ties: older first), at most max_count.

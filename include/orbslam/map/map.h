@@ -3,14 +3,16 @@
 
 #include <mutex>
 #include <shared_mutex>
+#include <utility>
 
 #include "orbslam/map/map_data.h"
 
 namespace orbslam {
 
-/// The map that threads share. Look at it through `map.Read()->...`, change it through `map.Write()->...`; a guard
-/// held in a variable spans several calls. Rules: no pointer into the map outlives its guard, and no guard is held
-/// across extraction, matching, solving or waiting: gather, compute, then apply and look every id up again.
+/// The map that threads share. Look at it through `map.Read()->...`, change it through `map.Write()->...`; a
+/// guard held in a variable spans several calls. Rules: no pointer into the map outlives its guard, and no
+/// guard is held across extraction, matching, solving or waiting: gather, compute, then apply and look every
+/// id up again.
 class Map {
  public:
   class ReadGuard {
@@ -36,7 +38,7 @@ class Map {
     MapData* data_;
   };
 
-  explicit Map(const ScalePyramid& pyramid) : data_(pyramid) {}
+  explicit Map(MapData data) : data_(std::move(data)) {}
 
   [[nodiscard]] ReadGuard Read() const { return ReadGuard(*this); }
   [[nodiscard]] WriteGuard Write() { return WriteGuard(*this); }

@@ -30,15 +30,15 @@ auto Living(Vector& all) {
 
 }  // namespace internal
 
-/// Keyframes, map points and their cross references, all by id. Owns everything; knows nothing of threads (see Map).
-/// Every edit keeps the invariants of invariants.h: observations are mutual, covisibility weights are exact, the
-/// spanning tree is a tree.
+/// Keyframes, map points and their cross references, all by id. Owns everything; knows nothing of threads
+/// (see Map). Every edit keeps the invariants of invariants.h: observations are mutual, covisibility weights
+/// are exact, the spanning tree is a tree.
 class MapData {
  public:
   explicit MapData(const ScalePyramid& pyramid) : pyramid_(pyramid) {}
 
-  /// A map that equals the one whose Export() this is, and goes on with the ids where that stopped. Error: the state
-  /// contradicts itself; any content is safe to try, also one made up to do harm.
+  /// A map that equals the one whose Export() this is, and goes on with the ids where that stopped. Error:
+  /// the state contradicts itself; any content is safe to try, also one made up to do harm.
   static Result<MapData> FromState(MapState state);
   MapState Export() const;
 
@@ -50,8 +50,8 @@ class MapData {
   KeyFrame* Find(KeyFrameId id);
   /// Hangs it below the covisible it shares most points with; without any, below `fallback`.
   void ConnectToSpanningTree(KeyFrameId id, KeyFrameId fallback);
-  /// Its children move to the best covisible that is no descendant of theirs. The root and keyframes with loop
-  /// edges stay: false. Points that lose their last observation are erased.
+  /// Its children move to the best covisible that is no descendant of theirs. The root and keyframes with
+  /// loop edges stay: false. Points that lose their last observation are erased.
   bool EraseKeyFrame(KeyFrameId id);
   void AddLoopEdge(KeyFrameId a, KeyFrameId b);
   /// The keyframe itself, or if it was erased its nearest living ancestor; invalid: never there.

@@ -9,8 +9,9 @@
 
 namespace orbslam {
 
-/// Watches young points: those that are rarely found where they should be, or that no further keyframe comes to see,
-/// are erased; the others are trusted after three keyframes. (ORB-SLAM, Mur-Artal et al. 2015, section VI-B.)
+/// Watches young points: those that are rarely found where they should be, or that no further keyframe comes
+/// to see, are erased; the others are trusted after three keyframes. (ORB-SLAM, Mur-Artal et al. 2015,
+/// section VI-B.)
 class PointCuller {
  public:
   explicit PointCuller(const MappingOptions& options) : options_(options) {}
@@ -29,8 +30,8 @@ class PointCuller {
   std::vector<Young> young_;
 };
 
-/// The covisibles of a keyframe whose close points are nearly all seen by enough others at the same or a finer scale:
-/// erased. Returns how many. (ORB-SLAM, section VI-E.)
+/// The covisibles of a keyframe whose close points are nearly all seen by enough others at the same or a
+/// finer scale: erased. Returns how many. (ORB-SLAM, section VI-E.)
 int CullKeyFrames(const Sensor& sensor, const MappingOptions& options, KeyFrameId around, MapData* map);
 
 }  // namespace orbslam

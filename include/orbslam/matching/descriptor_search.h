@@ -11,9 +11,12 @@ namespace orbslam {
 
 struct DescriptorSearchOptions {
   int max_distance = kStrictMaxDistance;
-  double max_ratio = 0.7;          // best / second best distance (Lowe's test)
+  double max_ratio = 0.7;  // best / second best distance (Lowe's test)
   bool check_orientation = true;
 };
+
+/// Near enough, and clearly nearer than the second.
+bool IsDistinct(const NearestTwo& nearest, const DescriptorSearchOptions& options);
 
 /// Matches keypoints of two frames by appearance alone, each to each: for every keypoint of `from` listed in
 /// from_indices the keypoint of `to`, or -1. A keypoint of `to` is matched at most once, to the nearest.

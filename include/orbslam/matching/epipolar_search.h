@@ -11,9 +11,9 @@
 
 namespace orbslam {
 
-/// Matches keypoints of two frames whose relative pose is known: only those near each other's epipolar line are compared.
-/// fundamental: pixel_to^T F pixel_from = 0, undistorted px. For every index in from_indices the keypoint of `to`, or
-/// -1; none is used twice, and all agree on how the camera rolled.
+/// Matches keypoints of two frames whose relative pose is known: only those near each other's epipolar line
+/// are compared. fundamental: pixel_to^T F pixel_from = 0, undistorted px. For every index in from_indices
+/// the keypoint of `to`, or -1; none is used twice, and all agree on how the camera rolled.
 std::vector<int> SearchByEpipolarLine(const FrameFeatures& from, std::span<const int> from_indices,
                                       const FrameFeatures& to, std::span<const int> to_indices,
                                       const Eigen::Matrix3d& fundamental, const ScalePyramid& pyramid);

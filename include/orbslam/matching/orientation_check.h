@@ -5,9 +5,9 @@
 
 namespace orbslam {
 
-/// Finds the matches whose change of keypoint angle disagrees with the others': a camera that rolls turns all patches
-/// alike. Rotations are counted in a histogram of 12 degree bins; the three fullest bins are right, if each
-/// has at least a tenth of the fullest (ORB-SLAM 2015, section V-B).
+/// Finds the matches whose change of keypoint angle disagrees with the others': a camera that rolls turns all
+/// patches alike. Rotations are counted in a histogram of 12 degree bins; the three fullest bins are right,
+/// if each has at least a tenth of the fullest (ORB-SLAM 2015, section V-B).
 class OrientationCheck {
  public:
   /// Angles in [0, 360).

@@ -25,7 +25,7 @@ struct PoseOptimizerOptions {
   int num_rounds = 4;              // of optimisation, each followed by reclassification
   int max_iterations = 10;         // a round
   double max_chi2_mono = 5.991;    // chi-square, 2 dof, 95 %: residual (u, v)
-  double max_chi2_stereo = 7.815;  // chi-square, 3 dof, 95 %: residual (u, v, u_right)
+  double max_chi2_stereo = 7.815;  // chi-square, 3 dof, 95 %: residual (u, v, disparity)
 };
 
 struct PoseResult {

@@ -18,12 +18,13 @@ struct MapBundle {
   uint64_t epoch = 0;                 // of the map when it was gathered
 };
 
-/// Copies the `moving` keyframes, all points they see, and every other keyframe that sees those points: as fixed
-/// ones, at most max_fixed, those with most observations first. The map's root is always fixed.
-MapBundle GatherBundle(const MapData& map, const Sensor& sensor, const std::set<KeyFrameId>& moving, int max_fixed);
+/// Copies the `moving` keyframes, all points they see, and every other keyframe that sees those points: as
+/// fixed ones, at most max_fixed, those with most observations first. The map's root is always fixed.
+MapBundle GatherBundle(const MapData& map, const Sensor& sensor, const std::set<KeyFrameId>& moving,
+                       int max_fixed);
 
-/// Writes refined poses and points back and removes observations that are no inliers. Ids that are gone by now are passed
-/// over. Nothing happens if the map was corrected globally since the gathering: false.
+/// Writes refined poses and points back and removes observations that are no inliers. Ids that are gone by
+/// now are passed over. Nothing happens if the map was corrected globally since the gathering: false.
 bool ApplyBundle(const MapBundle& bundle, const BundleSummary& summary, MapData* map);
 
 }  // namespace orbslam

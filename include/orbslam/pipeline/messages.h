@@ -17,8 +17,8 @@ struct RgbdImage {
   FrameId id;
   double timestamp_s = 0;
   std::string timestamp_text;  // as it is to stand in trajectories; empty: timestamp_s with 6 decimals
-  cv::Mat gray;     // CV_8UC1, raw (distorted)
-  cv::Mat depth_m;  // CV_32FC1, registered to gray, metres; 0: no measurement
+  cv::Mat gray;                // CV_8UC1, raw (distorted)
+  cv::Mat depth_m;             // CV_32FC1, registered to gray, metres; 0: no measurement
 };
 
 enum class TrackingState { kNotInitialized, kOk, kLost };
@@ -54,10 +54,10 @@ struct FrameReport {
   double timestamp_s = 0;
   TrackingState state = TrackingState::kNotInitialized;
   std::optional<Rigid3d> world_from_camera;  // only if state is kOk
-  KeyFrameId reference;                      // likewise; the keyframe it is best tied to, and the pose relative to it:
-  Rigid3d camera_from_reference;             // what trajectories are made of, since keyframes are refined later
-  double tracking_s = 0;      // wall time from the image to the pose
-  double tracking_cpu_s = 0;  // CPU time of the calling thread in it
+  KeyFrameId reference;           // likewise; the keyframe it is best tied to, and the pose relative to it:
+  Rigid3d camera_from_reference;  // what trajectories are made of, since keyframes are refined later
+  double tracking_s = 0;          // wall time from the image to the pose
+  double tracking_cpu_s = 0;      // CPU time of the calling thread in it
   int num_keypoints = 0;
   int num_matches = 0;  // inliers among the map points it sees
   std::optional<KeyFrameReady> new_keyframe;

@@ -9,7 +9,8 @@
 
 namespace orbslam {
 
-/// Everything about the camera and the feature pyramid that the stages need, worked out once from the settings.
+/// Everything about the camera and the feature pyramid that the stages need, worked out once from the
+/// settings.
 struct Sensor {
   PinholeCamera camera;
   ImageBounds bounds;  // undistorted px
@@ -18,7 +19,8 @@ struct Sensor {
   ScalePyramid pyramid;
   double frame_rate_hz;
 
-  Sensor(const PinholeCamera& pinhole, const DepthModel& depth_model, const OrbExtractorOptions& orb, double rate_hz)
+  Sensor(const PinholeCamera& pinhole, const DepthModel& depth_model, const OrbExtractorOptions& orb,
+         double rate_hz)
       : camera(pinhole),
         bounds(UndistortedBounds(pinhole)),
         depth(depth_model),

@@ -11,11 +11,14 @@ namespace orbslam {
 
 /// Everything that rgbd_tum was asked to do.
 struct DatasetJob {
-  std::string vocabulary_path;   // "-": none
+  std::string vocabulary_path;  // "-": none
   std::string settings_path;
   std::string sequence_folder;
   std::string associations_path;  // empty: rgb.txt and depth.txt are associated
   std::string output_folder = ".";
+  std::string load_map_path;  // empty: none; as next
+  std::string save_map_path;
+  bool localize_only = false;
   bool sequential = false;
   bool use_detector = true;
   RunOptions run;
@@ -28,8 +31,9 @@ const char* Version();
 /// Exit codes of the programs.
 inline constexpr int kExitOk = 0, kExitError = 2, kExitInterrupted = 130;
 
-/// Runs the sequence and writes CameraTrajectory.txt, KeyFrameTrajectory.txt, settings.yaml and run.json into the output
-/// folder. Bad input is explained in one line in the log; what could be computed is written in every case.
+/// Runs the sequence and writes CameraTrajectory.txt, KeyFrameTrajectory.txt, settings.yaml and run.json into
+/// the output folder. Bad input is explained in one line in the log; what could be computed is written in
+/// every case.
 int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted);
 
 }  // namespace orbslam

@@ -7,7 +7,8 @@
 
 namespace orbslam {
 
-/// Shows how far a run is: one line that is redrawn where the stream is a terminal, else a plain line now and then.
+/// Shows how far a run is: one line that is redrawn where the stream is a terminal, else a plain line now and
+/// then.
 class Progress {
  public:
   enum class Mode { kQuiet, kAutomatic };

@@ -8,7 +8,8 @@
 
 namespace orbslam {
 
-/// The text of run.json: version, command line, settings, counts, coverage, timing percentiles (seconds), memory.
+/// The text of run.json: version, command line, settings, counts, coverage, timing percentiles (seconds),
+/// memory.
 std::string FormatRunReport(const std::vector<std::string>& command_line, const Settings& settings,
                             const std::vector<std::string>& warnings, const RunSummary& summary,
                             const System& system);

@@ -22,13 +22,13 @@ struct RunSummary {
   int frames_processed = 0;  // given to the system
   int frames_lost = 0;       // processed, without a pose
   bool was_interrupted = false;
-  double startup_s = 0;      // from exec to the first frame's being handed over
+  double startup_s = 0;  // from exec to the first frame's being handed over
   double wall_s = 0;
   std::vector<double> tracking_s;  // one a processed frame
 };
 
-/// Runs a sequence through the system. Frames that cannot be read are skipped, counted and warned of. Ends early, with
-/// everything so far in place, when is_interrupted becomes true.
+/// Runs a sequence through the system. Frames that cannot be read are skipped, counted and warned of. Ends
+/// early, with everything so far in place, when is_interrupted becomes true.
 RunSummary RunSequence(const TumSequence& sequence, const Settings& settings, const RunOptions& options,
                        const std::atomic<bool>& is_interrupted, System* system);
 

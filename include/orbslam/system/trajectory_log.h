@@ -10,8 +10,8 @@
 
 namespace orbslam {
 
-/// Remembers every tracked frame relative to a keyframe, so that trajectories benefit from all that the map learned
-/// later. Poses are world_from_camera at the colour image's time stamp.
+/// Remembers every tracked frame relative to a keyframe, so that trajectories benefit from all that the map
+/// learned later. Poses are world_from_camera at the colour image's time stamp.
 class TrajectoryLog {
  public:
   /// Frames without a pose are not kept.

@@ -8,8 +8,8 @@
 
 namespace orbslam {
 
-/// Finds a first pose of a new frame from what is just behind it. Both ways fill `frame` (pose, points) and return
-/// the number of inliers; fewer than options.min_inliers means that the way failed.
+/// Finds a first pose of a new frame from what is just behind it. Both ways fill `frame` (pose, points) and
+/// return the number of inliers; fewer than options.min_inliers means that the way failed.
 class FrameTracker {
  public:
   FrameTracker(const Map& map, const Sensor& sensor, const TrackingOptions& options)
@@ -18,7 +18,7 @@ class FrameTracker {
   /// Looks for the last frame's points where frame->camera_from_world, the prediction, puts them.
   int TrackLastFrame(const Frame& last, Frame* frame) const;
 
-  /// Matches with a keyframe by appearance, when the prediction failed. Starts from frame->camera_from_world.
+  /// Matches with a keyframe by appearance, when there is no good prediction; needs none.
   int TrackKeyFrame(KeyFrameId keyframe, Frame* frame) const;
 
  private:

@@ -9,10 +9,10 @@ namespace orbslam {
 struct KeyFrameEvidence {
   double since_last_keyframe_s = 0;
   int num_keyframes = 0;
-  int num_inliers = 0;             // map points tracked in this frame
-  int num_reference_points = 0;    // points of the reference keyframe that enough others see
-  int num_tracked_close = 0;       // close keypoints with a map point
-  int num_untracked_close = 0;     // close keypoints without
+  int num_inliers = 0;           // map points tracked in this frame
+  int num_reference_points = 0;  // points of the reference keyframe that enough others see
+  int num_tracked_close = 0;     // close keypoints with a map point
+  int num_untracked_close = 0;   // close keypoints without
   bool is_mapper_idle = true;
 };
 

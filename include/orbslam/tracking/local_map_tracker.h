@@ -12,8 +12,8 @@
 
 namespace orbslam {
 
-/// Second half of tracking a frame: takes the keyframes round it, looks for their points in it, and refines its pose
-/// with all that is found. (ORB-SLAM, Mur-Artal et al. 2015, section V-D.)
+/// Second half of tracking a frame: takes the keyframes round it, looks for their points in it, and refines
+/// its pose with all that is found. (ORB-SLAM, Mur-Artal et al. 2015, section V-D.)
 class LocalMapTracker {
  public:
   LocalMapTracker(const Map& map, const Sensor& sensor, const TrackingOptions& options)

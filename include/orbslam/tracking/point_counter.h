@@ -7,8 +7,8 @@
 
 namespace orbslam {
 
-/// Counts, between two keyframes, how often each map point was in view and how often it was found. Kept here and
-/// handed over with the next keyframe, so that tracking a frame never writes to the map.
+/// Counts, between two keyframes, how often each map point was in view and how often it was found. Kept here
+/// and handed over with the next keyframe, so that tracking a frame never writes to the map.
 class PointCounter {
  public:
   void CountVisible(MapPointId id) { ++Slot(id).times_visible; }

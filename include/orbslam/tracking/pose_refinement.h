@@ -2,13 +2,26 @@
 #pragma once
 
 #include "orbslam/map/map.h"
+#include "orbslam/optimization/pose_optimizer.h"
 #include "orbslam/pipeline/frame.h"
 #include "orbslam/pipeline/sensor.h"
 
 namespace orbslam {
 
-/// Optimises the frame's pose over the map points its keypoints show, and forgets the matches that turn out to be
-/// outliers or whose point is gone. Returns the number of matches left.
+/// The frame's matches as an optimisation problem, and the keypoint of each observation.
+struct FramePoseProblem {
+  PoseProblem problem;
+  std::vector<int> keypoints;
+};
+/// Follows fused points and forgets erased ones, in the frame too.
+FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* frame);
+
+/// Optimises the frame's pose over the map points its keypoints show, and forgets the matches that turn out
+/// to be outliers or whose point is gone. Returns the number of matches left.
 int RefinePose(const Map& map, const Sensor& sensor, Frame* frame);
+
+/// The same without a prior and among many wrong matches: P3P with RANSAC, then refinement over what agrees.
+/// 0: no pose was found.
+int EstimatePose(const Map& map, const Sensor& sensor, Frame* frame);
 
 }  // namespace orbslam

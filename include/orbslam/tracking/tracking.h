@@ -7,22 +7,29 @@
 #include "orbslam/map/map.h"
 #include "orbslam/pipeline/messages.h"
 #include "orbslam/tracking/frame_tracker.h"
+#include "orbslam/tracking/keyframe_policy.h"
 #include "orbslam/tracking/local_map_tracker.h"
 #include "orbslam/tracking/motion_model.h"
 #include "orbslam/tracking/point_counter.h"
+#include "orbslam/tracking/relocalizer.h"
 #include "orbslam/tracking/tracking_options.h"
 #include "orbslam/util/stage_timer.h"
 
 namespace orbslam {
 
-/// Where is the camera? One frame in, one pose out; makes keyframes. Knows nothing of threads: whoever calls Process
-/// does so from one thread at a time. (ORB-SLAM2, Mur-Artal and Tardos, T-RO 2017, section III.)
+/// Where is the camera? One frame in, one pose out; makes keyframes. Knows nothing of threads: whoever calls
+/// Process does so from one thread at a time. (ORB-SLAM2, Mur-Artal and Tardos, T-RO 2017, section III.)
 class Tracking {
  public:
+  /// places: for relocalisation; nullptr: no vocabulary, keyframes are tried in turn. A map that is not empty
+  /// is known already: the first frame is looked for in it.
   Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const TrackingOptions& options,
-           const KeyFramePolicyOptions& policy, Map* map);
+           const KeyFramePolicyOptions& policy, const PlaceIndex* places, Map* map);
 
   FrameReport Process(const RgbdImage& image, const MapperLoad& mapper = {});
+
+  /// In localisation mode no keyframes are made: the map stays as it is.
+  void SetLocalizationMode(bool is_on) { makes_keyframes_ = !is_on; }
 
   /// Time spent in each step, seconds.
   const StageTimer& timer() const { return timer_; }
@@ -31,9 +38,12 @@ class Tracking {
   Frame MakeFrame(const RgbdImage& image);
   void Initialize(Frame* frame, FrameReport* report);
   void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
+  bool Locate(Frame* frame, FrameReport* report);
   bool FindFirstPose(Frame* frame);
+  bool TakeBetterPose(Frame* frame);
   bool RefineOnLocalMap(Frame* frame, FrameReport* report);
   void FollowMapCorrections();
+  KeyFrameEvidence GatherEvidence(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
   bool WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
   void InsertKeyFrame(Frame* frame, FrameReport* report);
   void Remember(Frame frame, FrameReport* report);
@@ -45,13 +55,16 @@ class Tracking {
   OrbExtractor extractor_;
   FrameTracker frame_tracker_;
   LocalMapTracker local_map_tracker_;
+  Relocalizer relocalizer_;
   MotionModel motion_;
   PointCounter counter_;
   StageTimer timer_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
-  std::optional<Frame> last_;      // the last frame that was tracked
-  KeyFrameId reference_;           // the keyframe that shares most points with it
+  bool makes_keyframes_ = true;
+  uint64_t epoch_ = 0;         // of the map, when the present frame was begun
+  std::optional<Frame> last_;  // the last frame that was tracked
+  KeyFrameId reference_;       // the keyframe that shares most points with it
   Rigid3d last_from_reference_;
   double last_keyframe_s_ = 0;
   KeyFrameId last_keyframe_;

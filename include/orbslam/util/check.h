@@ -3,8 +3,8 @@
 
 /// Stops the program when a condition that only a bug can break is false. Expected failure is a Result or
 /// an std::optional, never a check.
-#define ORBSLAM_CHECK(condition)                                             \
-  do {                                                                       \
+#define ORBSLAM_CHECK(condition)                                              \
+  do {                                                                        \
     if (!(condition)) ::orbslam::CheckFailed(#condition, __FILE__, __LINE__); \
   } while (false)
 

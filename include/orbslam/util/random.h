@@ -13,16 +13,14 @@ class Rng {
   using result_type = uint64_t;
 
   explicit Rng(uint64_t seed, uint64_t frame = 0, uint64_t purpose = 0)
-      : state_(seed ^ (frame * 0x9E3779B97F4A7C15u) ^ (purpose * 0xC2B2AE3D27D4EB4Fu)) {}
+      : state_(seed ^ Mixed(frame * 0xD6E8FEB86659FD93u) ^ Mixed(purpose * 0xC2B2AE3D27D4EB4Fu)) {}
 
   static constexpr uint64_t min() { return 0; }
   static constexpr uint64_t max() { return std::numeric_limits<uint64_t>::max(); }
 
   uint64_t operator()() {
-    uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
+    state_ += 0x9E3779B97F4A7C15u;
+    return Mixed(state_);
   }
 
   /// Uniform in [0, n), n > 0.
@@ -35,6 +33,14 @@ class Rng {
   double Gaussian();
 
  private:
+  /// A bijection that keeps 0. Mixes keys too: states that differ by a multiple of the step are one stream,
+  /// shifted.
+  static uint64_t Mixed(uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+
   uint64_t state_;
 };
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/system/map_session.h"
+
+namespace orbslam {
+namespace {
+
+constexpr size_t kMaxWaitingKeyFrames = 3;
+constexpr size_t kMaxWaitingLoops = 64;
+
+StageMode ModeOfStages(const RunMode& mode) {
+  return mode.is_sequential ? StageMode::kInline : StageMode::kThreaded;
+}
+
+}  // namespace
+
+MapSession::MapSession(const Sensor& sensor, const OrbExtractorOptions& orb, RunMode mode,
+                       std::shared_ptr<const Vocabulary> vocabulary, MapData map)
+    : mode_(mode),
+      map_(std::move(map)),
+      places_(vocabulary ? std::optional<PlaceIndex>(std::in_place, vocabulary) : std::nullopt),
+      tracking_(sensor, orb, TrackingOptions(), KeyFramePolicyOptions(), places_ ? &*places_ : nullptr,
+                &map_),
+      mapping_(sensor, MappingOptions(), &map_),
+      loop_stage_(
+          "loop_closing", kMaxWaitingLoops,
+          [this](const KeyFrameMapped& message) { loop_closing_->Process(message); }, ModeOfStages(mode)),
+      mapping_stage_(
+          "local_mapping", kMaxWaitingKeyFrames,
+          [this](const KeyFrameReady& message) { RunMapping(message); }, ModeOfStages(mode)) {
+  if (places_) {
+    for (const KeyFrame& keyframe : map_.Read()->KeyFrames()) {
+      places_->Add(keyframe.id, places_->Transform(*keyframe.features));
+    }
+    const auto global_bundle =
+        mode.is_sequential ? LoopClosing::GlobalBundle::kInline : LoopClosing::GlobalBundle::kBeside;
+    loop_closing_.emplace(sensor, LoopOptions(), global_bundle, &*places_, &turn_, &map_);
+  }
+  loop_stage_.Start();
+  mapping_stage_.Start();
+}
+
+FrameReport MapSession::Track(const RgbdImage& image) {
+  FrameReport report = tracking_.Process(image, Load());
+  trajectory_.Add(image, report);
+  if (report.new_keyframe) HandOver(*report.new_keyframe);
+  return report;
+}
+
+/// A recorded sequence can wait, a camera cannot.
+MapperLoad MapSession::Load() const {
+  if (!mode_.is_live) return {};
+  return {.is_idle = mapping_stage_.IsIdle(),
+          .accepts_keyframe = mapping_stage_.QueueSize() < kMaxWaitingKeyFrames};
+}
+
+void MapSession::HandOver(KeyFrameReady message) {
+  if (mode_.is_live) {
+    turn_.AskToYield();
+  } else {
+    mapping_stage_.WaitUntilIdle();
+  }
+  mapping_stage_.Push(std::move(message));
+}
+
+void MapSession::RunMapping(const KeyFrameReady& message) {
+  KeyFrameMapped mapped;
+  {
+    const auto turn = turn_.Take();
+    mapped = mapping_.Process(message, mapping_stage_.QueueSize() > 0, turn.ShouldYield());
+  }
+  if (loop_closing_) loop_stage_.Push(mapped);
+}
+
+void MapSession::WaitUntilIdle() {
+  mapping_stage_.WaitUntilIdle();
+  loop_stage_.WaitUntilIdle();
+  if (loop_closing_) loop_closing_->Finish();
+}
+
+void MapSession::Stop(std::chrono::milliseconds max_wait) {
+  mapping_stage_.CloseAndJoin();
+  loop_stage_.CloseAndJoin();
+  if (loop_closing_) loop_closing_->FinishWithin(max_wait);
+}
+
+void MapSession::SetLocalizationMode(bool is_on) {
+  WaitUntilIdle();
+  tracking_.SetLocalizationMode(is_on);
+}
+
+std::optional<Error> MapSession::failure() const {
+  if (auto failure = mapping_stage_.failure()) return failure;
+  return loop_stage_.failure();
+}
+
+std::map<std::string, StageTimer::Statistics> MapSession::Timings() const {
+  auto timings = tracking_.timer().Summarize();
+  timings.merge(mapping_.timer().Summarize());
+  if (loop_closing_) timings.merge(loop_closing_->timer().Summarize());
+  return timings;
+}
+
+}  // namespace orbslam
