@@ -67,7 +67,7 @@ const char* ExplainFailure(const RunSummary& summary, int num_tracked) {
 void PrintSummary(const DatasetJob& job, const RunSummary& summary, const System& system) {
   const System::Counts counts = system.counts();
   const std::string text =
-      FormatTrackingTimes(summary.tracking_s) +
+      FormatTrackingTimes(summary.frames) +
       fmt::format("tracked {} of {} frames ({} lost, {} skipped), {} keyframes, {} map points\n",
                   counts.tracked, summary.frames_listed, summary.frames_lost, summary.frames_skipped,
                   counts.keyframes, counts.map_points) +

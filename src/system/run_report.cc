@@ -24,6 +24,35 @@ Json TimingsJson(const System& system) {
   return json;
 }
 
+/// One array a column, one entry a processed frame.
+Json FramesJson(const std::vector<FrameReport>& frames) {
+  Json json;
+  for (const char* column : {"timestamp_s", "state", "keypoints", "matches", "tracking_s", "tracking_cpu_s"}) {
+    json[column] = Json::array();
+  }
+  for (const FrameReport& frame : frames) {
+    json["timestamp_s"].push_back(frame.timestamp_s);
+    json["state"].push_back(Name(frame.state));
+    json["keypoints"].push_back(frame.num_keypoints);
+    json["matches"].push_back(frame.num_matches);
+    json["tracking_s"].push_back(frame.tracking_s);
+    json["tracking_cpu_s"].push_back(frame.tracking_cpu_s);
+  }
+  return json;
+}
+
+/// `text` is a JSON object that ends in "\n}"; the long columns join it a line each.
+std::string WithFrames(std::string text, const std::vector<FrameReport>& frames) {
+  text.resize(text.size() - 2);
+  text += ",\n  \"per_frame\": {";
+  const char* separator = "\n";
+  const Json columns = FramesJson(frames);
+  for (const auto& [column, values] : columns.items()) {
+    text += fmt::format("{}    \"{}\": {}", std::exchange(separator, ",\n"), column, values.dump());
+  }
+  return text + "\n  }\n}\n";
+}
+
 }  // namespace
 
 std::string FormatRunReport(const std::vector<std::string>& command_line, const Settings& settings,
@@ -55,11 +84,13 @@ std::string FormatRunReport(const std::vector<std::string>& command_line, const 
   json["cpu_s"] = ProcessCpuSeconds();
   json["peak_memory_mb"] = PeakMemoryMb();
   // A path or a line of a list need not be UTF-8, which JSON is.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return WithFrames(json.dump(2, ' ', false, Json::error_handler_t::replace), summary.frames);
 }
 
-std::string FormatTrackingTimes(std::vector<double> tracking_s) {
-  if (tracking_s.empty()) return "no frame was tracked\n";
+std::string FormatTrackingTimes(const std::vector<FrameReport>& frames) {
+  if (frames.empty()) return "no frame was tracked\n";
+  std::vector<double> tracking_s;
+  std::ranges::transform(frames, std::back_inserter(tracking_s), &FrameReport::tracking_s);
   std::ranges::sort(tracking_s);
   const double mean_s =
       std::accumulate(tracking_s.begin(), tracking_s.end(), 0.0) / static_cast<double>(tracking_s.size());

@@ -79,7 +79,7 @@ RunSummary RunSequence(const TumSequence& sequence, const Settings& settings, co
                                                   .depth_m = images->depth_m});
     ++summary.frames_processed;
     summary.frames_lost += !report.world_from_camera.has_value();
-    summary.tracking_s.push_back(report.tracking_s);
+    summary.frames.push_back(report);
     if (progress.IsDue(i + 1)) progress.Update(i + 1, Detail(report, *system));
   }
   summary.was_interrupted = is_interrupted;

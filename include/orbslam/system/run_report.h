@@ -15,6 +15,6 @@ std::string FormatRunReport(const std::vector<std::string>& command_line, const 
                             const System& system);
 
 /// "median tracking time" and "mean tracking time" in seconds, as ORB-SLAM2's programs print them.
-std::string FormatTrackingTimes(std::vector<double> tracking_s);
+std::string FormatTrackingTimes(const std::vector<FrameReport>& frames);
 
 }  // namespace orbslam

@@ -24,7 +24,7 @@ struct RunSummary {
   bool was_interrupted = false;
   double startup_s = 0;  // from exec to the first frame's being handed over
   double wall_s = 0;
-  std::vector<double> tracking_s;  // one a processed frame
+  std::vector<FrameReport> frames;  // one a processed frame
 };
 
 /// Runs a sequence through the system. Frames that cannot be read are skipped, counted and warned of. Ends
