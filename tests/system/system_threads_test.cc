@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "map/same_map.h"
+#include "orbslam/map/invariants.h"
+#include "orbslam/map/map_state.h"
+#include "orbslam/util/random.h"
+#include "system/synthetic_run.h"
+#include "util/temp_dir.h"
+
+namespace orbslam::test {
+namespace {
+
+constexpr RunMode kDataset{}, kLive{.is_live = true};
+
+/// Moves fast, so that keyframes come often; small, so that ThreadSanitizer is done in time.
+const Recording& Walk() {
+  static const Recording recording(Motion::kLoop, 320, 30, /*stride=*/5);
+  return recording;
+}
+
+System MakeSystem(RunMode mode) {
+  return System(SettingsFor(Walk().camera(), 300), {.mode = mode, .vocabulary = ShippedVocabulary()});
+}
+
+int NumSavedPoses(const System& system) {
+  const TempDir dir;
+  EXPECT_TRUE(system.SaveTrajectory(dir.Path("camera.txt")).ok());
+  return static_cast<int>(ReadTrajectory(dir.Path("camera.txt")).value().size());
+}
+
+/// Shutdown promises two seconds; a sanitizer may take several times as long for the same work.
+std::chrono::duration<double> ShutdownLimit() {
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  return std::chrono::seconds(10);
+#else
+  return std::chrono::seconds(2);
+#endif
+}
+
+TEST(SystemThreads, StartsAndStopsTwoHundredTimes) {
+  for (int i = 0; i < 200; ++i) {
+    System system = MakeSystem(i % 2 ? kLive : kDataset);
+    ASSERT_EQ(TrackFrames(Walk(), 0, i % 3, &system), i % 3);
+    if (i % 4 < 2) system.Shutdown();  // otherwise the destructor has to
+  }
+}
+
+TEST(SystemThreads, ShutsDownAtAnyFrameWithinTheTimePromised) {
+  Rng rng(5);
+  for (int i = 0; i < 50; ++i) {
+    System system = MakeSystem(i % 2 ? kLive : kDataset);
+    const int num_frames = static_cast<int>(rng.Uniform(0, 12));
+    ASSERT_EQ(TrackFrames(Walk(), 0, num_frames, &system), num_frames);
+    const auto start = std::chrono::steady_clock::now();
+    system.Shutdown();
+    EXPECT_LT(std::chrono::steady_clock::now() - start, ShutdownLimit()) << "after frame " << num_frames;
+    EXPECT_EQ(NumSavedPoses(system), num_frames);
+    EXPECT_FALSE(system.failure().has_value());
+  }
+}
+
+TEST(SystemThreads, EveryFrameIsTrackedWhetherTheMapperIsWaitedForOrNot) {
+  for (const RunMode mode : {kDataset, kLive}) {
+    System system = MakeSystem(mode);
+    EXPECT_EQ(TrackFrames(Walk(), 0, Walk().size(), &system), Walk().size());
+    system.Shutdown();
+    EXPECT_EQ(NumSavedPoses(system), Walk().size());
+    EXPECT_GT(system.counts().keyframes, 1);
+    EXPECT_FALSE(system.failure().has_value());
+  }
+}
+
+TEST(SystemThreads, ResetForgetsEverythingAndStartsAgain) {
+  System system = MakeSystem(kLive);
+  TrackFrames(Walk(), 0, 8, &system);
+  system.Reset();
+  EXPECT_EQ(system.counts().frames, 0);
+  EXPECT_EQ(system.counts().keyframes, 0);
+  EXPECT_EQ(system.counts().map_points, 0);
+  EXPECT_EQ(TrackFrames(Walk(), 8, 16, &system), 8);
+  EXPECT_EQ(NumSavedPoses(system), 8);
+}
+
+TEST(SystemThreads, LocalizationLeavesTheMapAsItIs) {
+  System system = MakeSystem(kLive);
+  TrackFrames(Walk(), 0, 15, &system);
+  system.ActivateLocalizationMode();
+  const MapData before = MapData::FromState(system.map().Read()->Export()).value();
+  EXPECT_EQ(TrackFrames(Walk(), 15, 25, &system), 10);
+  ExpectSame(*system.map().Read(), before);
+  system.DeactivateLocalizationMode();
+  EXPECT_EQ(TrackFrames(Walk(), 25, 30, &system), 5);
+  system.Shutdown();
+  EXPECT_EQ(NumSavedPoses(system), 30);
+  EXPECT_GT(system.map().Read()->last_keyframe_id(), before.last_keyframe_id());
+}
+
+TEST(SystemThreads, AnotherThreadSeesASoundMapAtAnyTime) {
+  System system = MakeSystem(kLive);
+  std::atomic<int> num_frames = 0;
+  const int last = Walk().size();
+  int num_looks = 0;
+  std::vector<std::string> broken;
+  {
+    const std::jthread reader([&] {
+      // A look after news each, since readers that never pause would keep writers out.
+      for (int seen = 0; seen < last; ++num_looks) {
+        num_frames.wait(seen);
+        seen = num_frames;
+        const auto guard = system.map().Read();
+        if (broken.empty()) broken = FindBrokenInvariants(*guard);
+      }
+    });
+    for (int i = 0; i < last; ++i) {
+      EXPECT_EQ(TrackFrames(Walk(), i, i + 1, &system), 1);
+      num_frames = i + 1;
+      num_frames.notify_all();
+    }
+  }
+  EXPECT_THAT(broken, testing::IsEmpty());
+  EXPECT_GT(num_looks, 1);
+}
+
+}  // namespace
+}  // namespace orbslam::test
