@@ -50,7 +50,7 @@ class EditTurn {
   void GiveBack() {
     const std::lock_guard lock(mutex_);
     is_held_ = false;
-    free_.notify_one();
+    free_.notify_all();  // those who do not get it ask the next holder
   }
 
   std::mutex mutex_;
