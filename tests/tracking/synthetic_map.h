@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <vector>
 
@@ -18,6 +20,9 @@ namespace orbslam::test {
 class SyntheticMap : public testing::Test {
  protected:
   static constexpr double kMaxErrorM = 0.001, kMaxErrorRad = 0.1 * 3.14159265 / 180;
+
+  SyntheticMap() = default;
+  explicit SyntheticMap(std::vector<Landmark> landmarks) : landmarks_(std::move(landmarks)) {}
 
   /// A frame without pose and points. The landmark that its keypoint i shows is in landmarks_of_[its id][i].
   Frame See(const Rigid3d& camera_from_world) {
@@ -63,6 +68,34 @@ class SyntheticMap : public testing::Test {
     }
     return num_right / static_cast<double>(frame.NumPoints());
   }
+
+  int LandmarkAt(const MapData& map, const Observation& observation) const {
+    return landmarks_of_[map.Find(observation.keyframe)->frame_id.value][observation.keypoint];
+  }
+
+  /// The landmark that all observations of the point show; -1: they disagree.
+  int LandmarkOf(const MapData& map, const MapPoint& point) const {
+    const int landmark = LandmarkAt(map, point.observations.front());
+    const auto agrees = [&](const Observation& o) { return LandmarkAt(map, o) == landmark; };
+    return std::ranges::all_of(point.observations, agrees) ? landmark : -1;
+  }
+
+  /// Points that are observed as if two landmarks were one.
+  int NumMixedPoints() const {
+    const auto map = map_.Read();
+    int num_mixed = 0;
+    for (const MapPoint& point : map->MapPoints()) num_mixed += LandmarkOf(*map, point) < 0;
+    return num_mixed;
+  }
+
+  std::vector<MapPointId> PointsOf(KeyFrameId keyframe) const {
+    std::vector<MapPointId> points;
+    const auto map = map_.Read();
+    std::ranges::copy_if(map->Find(keyframe)->points, std::back_inserter(points), &MapPointId::IsValid);
+    return points;
+  }
+
+  void ExpectSound() const { EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty()); }
 
   Rng rng_{31};
   const Sensor sensor_ = KinectSensor();
