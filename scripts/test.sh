@@ -58,7 +58,7 @@ run_threads_under_tsan() {
 run_under_asan() {
   export ASAN_OPTIONS="detect_leaks=1" UBSAN_OPTIONS="print_stacktrace=1"
   echo "AddressSanitizer: building"
-  build asan tests_unit tests_property tests_threads tests_e2e
+  build asan
   run_tests AddressSanitizer asan -L 'unit|property|threads|e2e' -LE dataset
 }
 
