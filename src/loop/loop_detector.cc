@@ -51,7 +51,7 @@ std::vector<KeyFrameId> LoopDetector::FindSimilar(KeyFrameId keyframe_id,
 LoopDetector::Group LoopDetector::MakeGroup(const MapData& map, KeyFrameId candidate) const {
   const auto neighbors =
       map.Find(candidate)->BestCovisibles(std::numeric_limits<int>::max(), options_.min_shared_points);
-  Group group{{neighbors.begin(), neighbors.end()}, 0};
+  Group group{{neighbors.begin(), neighbors.end()}, 1};
   group.members.insert(candidate);
   return group;
 }

@@ -25,7 +25,7 @@ class LoopDetector {
   /// A candidate with its neighbours, and for how many keyframes in a row something of it was seen.
   struct Group {
     std::set<KeyFrameId> members;
-    int consistency = 0;
+    int consistency = 1;
   };
   std::vector<KeyFrameId> FindSimilar(KeyFrameId keyframe, const PlaceIndex::Words& words) const;
   Group MakeGroup(const MapData& map, KeyFrameId candidate) const;
