@@ -12,6 +12,10 @@
 namespace orbslam {
 namespace {
 
+/// Along the way several covisibility edges run side by side; the one edge of a loop would give way to them
+/// and leave a sixth of the gap open.
+constexpr double kLoopEdgeWeight = 30;
+
 /// The essential graph, and which keyframe each node is.
 struct EssentialGraph {
   PoseGraph graph;
@@ -43,19 +47,19 @@ EssentialGraph MakeEssentialGraph(const MapData& map, const LoopOptions& options
     essential.graph.nodes.push_back({start, !keyframe.parent.IsValid()});
   }
   std::set<std::pair<int, int>> present;
-  const auto add = [&](KeyFrameId a, KeyFrameId b, const Rigid3d& b_from_a) {
+  const auto add = [&](KeyFrameId a, KeyFrameId b, const Rigid3d& b_from_a, double weight) {
     const int node_a = node_of.at(a), node_b = node_of.at(b);
     if (present.insert(std::minmax(node_a, node_b)).second) {
-      essential.graph.edges.push_back({.a = node_a, .b = node_b, .b_from_a = b_from_a});
+      essential.graph.edges.push_back({node_a, node_b, b_from_a, weight});
     }
   };
-  add(loop.old, loop.current, loop.current_from_old);
-  const auto add_measured = [&](const KeyFrame& a, KeyFrameId b) {
-    add(a.id, b, map.Find(b)->camera_from_world * Inverse(a.camera_from_world));
+  add(loop.old, loop.current, loop.current_from_old, kLoopEdgeWeight);
+  const auto add_measured = [&](const KeyFrame& a, KeyFrameId b, double weight = 1) {
+    add(a.id, b, map.Find(b)->camera_from_world * Inverse(a.camera_from_world), weight);
   };
   for (const KeyFrame& keyframe : map.KeyFrames()) {
     if (keyframe.parent.IsValid()) add_measured(keyframe, keyframe.parent);
-    for (const KeyFrameId other : keyframe.loop_edges) add_measured(keyframe, other);
+    for (const KeyFrameId other : keyframe.loop_edges) add_measured(keyframe, other, kLoopEdgeWeight);
     for (const Covisible& other : keyframe.covisibles) {
       if (other.num_shared_points >= options.min_edge_weight) add_measured(keyframe, other.keyframe);
     }
