@@ -32,6 +32,7 @@ System::System(const Settings& settings, SystemOptions options)
 System::~System() { Shutdown(); }
 
 void System::StartSession(MapData map) {
+  last_tracked_s_.reset();
   sessions_.push_back(std::make_unique<MapSession>(sensor_, settings_.orb, options_.mode, options_.vocabulary,
                                                    std::move(map)));
   sessions_.back()->SetLocalizationMode(is_localizing_);
@@ -48,14 +49,14 @@ FrameReport System::TrackRgbd(RgbdImage image) {
 }
 
 void System::StartNewMapIfLost(const FrameReport& report) {
-  if (report.state != TrackingState::kLost) {
+  if (report.state != TrackingState::kLost || !last_tracked_s_) {
     last_tracked_s_ = report.timestamp_s;
     return;
   }
+  const double lost_s = report.timestamp_s - *last_tracked_s_;
   const bool is_young = map().Read()->num_keyframes() <= options_.young_map_keyframes;
-  if (!is_young || is_localizing_ || report.timestamp_s - last_tracked_s_ < options_.max_lost_s) return;
-  spdlog::warn("lost for {:.1f} s in a young map: starting map {}", report.timestamp_s - last_tracked_s_,
-               sessions_.size() + 1);
+  if (!is_young || is_localizing_ || lost_s < options_.max_lost_s) return;
+  spdlog::warn("lost for {:.1f} s in a young map: starting map {}", lost_s, sessions_.size() + 1);
   sessions_.back()->Stop();
   StartSession(MapData(sensor_.pyramid));
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,7 +90,7 @@ class System {
   const Sensor sensor_;
   std::vector<std::unique_ptr<MapSession>> sessions_;  // the present one last
   uint32_t num_frames_ = 0;
-  double last_tracked_s_ = 0;
+  std::optional<double> last_tracked_s_;  // or first given a frame, in the present map
   bool is_localizing_ = false;
 };
 
