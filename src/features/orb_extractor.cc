@@ -77,12 +77,17 @@ void OrbExtractor::Impl::ExtractLevel(int level, OrbFeatures* features) {
   const std::vector<Corner> chosen = SpreadByQuadTree(candidates, area, wanted[level]);
   if (chosen.empty()) return;
   smoother.Smooth(image, &smooth);
-  const auto scale = static_cast<float>(scales.Scale(level));
+  // Resizing maps centres of pixels: (x + 0.5) of a level is (x + 0.5) * its true scale in the image. cv::ORB
+  // and ORB-SLAM2 multiply x alone, which moves corners of the coarsest level by more than a pixel against
+  // the finest.
+  const float scale_u = static_cast<float>(images[0].cols) / static_cast<float>(image.cols);
+  const float scale_v = static_cast<float>(images[0].rows) / static_cast<float>(image.rows);
   for (const Corner& corner : chosen) {
     const float angle_deg =
         CentroidAngleDeg(image.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(image.step));
-    features->keypoints.push_back({static_cast<float>(corner.x) * scale, static_cast<float>(corner.y) * scale,
-                                   angle_deg, static_cast<float>(corner.score), level});
+    features->keypoints.push_back({(static_cast<float>(corner.x) + 0.5f) * scale_u - 0.5f,
+                                   (static_cast<float>(corner.y) + 0.5f) * scale_v - 0.5f, angle_deg,
+                                   static_cast<float>(corner.score), level});
     features->descriptors.push_back(
         DescribePixel(smooth.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(smooth.step), angle_deg));
   }

@@ -18,12 +18,16 @@ constexpr int kEdgePx = 19, kFastThreshold = 20;
 // As the float that OpenCV takes it for, so that both pyramids have the same scales.
 constexpr double kScaleFactor = 1.2f;
 
-std::vector<cv::KeyPoint> ToOpenCv(const std::vector<OrbKeypoint>& keypoints) {
+/// OpenCV scales a level's pixels by the nominal factor and maps corners, not centres: the same pixel of the
+/// level has other coordinates there.
+std::vector<cv::KeyPoint> ToOpenCv(const std::vector<OrbKeypoint>& keypoints, cv::Size image) {
   std::vector<cv::KeyPoint> converted;
   for (size_t i = 0; i < keypoints.size(); ++i) {
     const auto& k = keypoints[i];
     // class_id remembers which it was: OpenCV may drop and reorder.
-    converted.emplace_back(k.u, k.v, 31.0f, k.angle_deg, k.response, k.level, static_cast<int>(i));
+    const double scale = std::pow(kScaleFactor, k.level);
+    const cv::Point2f pixel = LevelPixel(k, image, scale) * scale;
+    converted.emplace_back(pixel.x, pixel.y, 31.0f, k.angle_deg, k.response, k.level, static_cast<int>(i));
   }
   return converted;
 }
@@ -34,7 +38,7 @@ TEST_P(OrbDescriptor, EqualsOpenCvsOnEveryLevel) {
   const cv::Mat image = ShapesImage({640, 480}, GetParam());
   OrbExtractor extractor({.scale_factor = kScaleFactor});
   const OrbFeatures ours = extractor.Extract(image);
-  auto keypoints = ToOpenCv(ours.keypoints);
+  auto keypoints = ToOpenCv(ours.keypoints, image.size());
   cv::Mat theirs;
   cv::ORB::create(1000, static_cast<float>(kScaleFactor), 8, kEdgePx, 0, 2, cv::ORB::FAST_SCORE, 31,
                   kFastThreshold)

@@ -59,9 +59,12 @@ TEST(OrbExtractor, KeepsAwayFromTheBorderAndKeypointsAreDistinct) {
   int level = 0;
   for (const auto& k : extractor.Extract(ShapesImage({333, 251}, 3)).keypoints) {
     const double scale = scales.Scale(k.level);
-    EXPECT_GE(std::min(k.u, k.v) / scale, 18.99);
-    EXPECT_LE(k.u / scale, std::round(333 / scale) - 19.99);
-    EXPECT_LE(k.v / scale, std::round(251 / scale) - 19.99);
+    const cv::Point2d pixel = LevelPixel(k, {333, 251}, scale);
+    EXPECT_GE(std::min(pixel.x, pixel.y), 18.99);
+    EXPECT_LE(pixel.x, std::round(333 / scale) - 19.99);
+    EXPECT_LE(pixel.y, std::round(251 / scale) - 19.99);
+    EXPECT_NEAR(pixel.x, std::round(pixel.x), 1e-3);
+    EXPECT_NEAR(pixel.y, std::round(pixel.y), 1e-3);
     EXPECT_TRUE(k.angle_deg >= 0 && k.angle_deg < 360);
     EXPECT_GE(k.level, level);
     level = k.level;

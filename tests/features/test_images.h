@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "orbslam/features/orb_extractor.h"
 #include "orbslam/util/random.h"
 
 namespace orbslam {
+
+/// The pixel of its level's image that a keypoint was found at: levels are resized with the centres of pixels
+/// mapped, to sizes rounded to whole pixels.
+inline cv::Point2d LevelPixel(const OrbKeypoint& k, cv::Size image, double scale) {
+  const cv::Point2d size(std::round(image.width / scale), std::round(image.height / scale));
+  return {(k.u + 0.5) * size.x / image.width - 0.5, (k.v + 0.5) * size.y / image.height - 0.5};
+}
 
 /// CV_8UC1 of independent uniform grey values.
 inline cv::Mat NoiseImage(cv::Size size, uint64_t seed) {
