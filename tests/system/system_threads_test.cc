@@ -21,6 +21,12 @@ const Recording& Walk() {
   return recording;
 }
 
+/// Once round the room and a quarter.
+const Recording& Round() {
+  static const Recording recording(Motion::kLoop, 320, 112, /*stride=*/8);
+  return recording;
+}
+
 System MakeSystem(RunMode mode) {
   return System(SettingsFor(Walk().camera(), 300), {.mode = mode, .vocabulary = ShippedVocabulary()});
 }
@@ -129,6 +135,31 @@ TEST(SystemThreads, AnotherThreadSeesASoundMapAtAnyTime) {
   }
   EXPECT_THAT(broken, testing::IsEmpty());
   EXPECT_GT(num_looks, 1);
+}
+
+TEST(SystemThreads, LoopIsClosedBesideTracking) {
+  for (const RunMode mode : {kDataset, kLive}) {
+    System system = MakeSystem(mode);
+    EXPECT_EQ(TrackFrames(Round(), 0, Round().size(), &system), Round().size());
+    system.Shutdown();
+    EXPECT_FALSE(system.failure().has_value());
+    EXPECT_GE(system.counts().loops, 1);
+    EXPECT_THAT(FindBrokenInvariants(*system.map().Read()), testing::IsEmpty());
+    EXPECT_EQ(NumSavedPoses(system), Round().size());
+  }
+}
+
+TEST(SystemThreads, ShutdownCutsAGlobalBundleAdjustmentShort) {
+  System system = MakeSystem(kDataset);
+  int num_frames = 0;
+  while (num_frames < Round().size() && system.counts().loops == 0) {
+    EXPECT_EQ(TrackFrames(Round(), num_frames, num_frames + 1, &system), 1);
+    ++num_frames;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  system.Shutdown();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, ShutdownLimit());
+  EXPECT_EQ(NumSavedPoses(system), num_frames);
 }
 
 }  // namespace
