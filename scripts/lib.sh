@@ -5,6 +5,9 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 readonly root program=${0##*/}
 
+# Clones in different folders share what ccache keeps.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+
 fail() {  # CODE MESSAGE
   echo "$program: error: $2" >&2
   exit "$1"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints the median CPU time, in seconds, of cv::ORB::detectAndCompute (1000 features, 8 levels, factor 1.2, one
-// thread) over the images of a sequence: the unit in which scripts/benchmark.py gives all other times.
+// Prints the median CPU time, in seconds, of cv::ORB::detectAndCompute (1000 features, 8 levels, factor 1.2,
+// one thread) over the images of a sequence: the unit in which scripts/benchmark.py gives all other times.
 #include <algorithm>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
