@@ -29,11 +29,22 @@ Status CheckSequenceFolder(const std::string& folder) {
                            error ? error.message() : "not a folder")};
 }
 
+/// An earlier run into the same folder may have made more maps than this one will: their trajectories must
+/// not stay beside this run's.
+void RemoveFurtherTrajectories(const std::string& folder) {
+  for (const char* name : {"CameraTrajectory", "KeyFrameTrajectory"}) {
+    std::error_code error;
+    for (int map = 2; std::filesystem::remove(fmt::format("{}/{}_{}.txt", folder, name, map), error); ++map) {
+    }
+  }
+}
+
 /// Found out before the run and not after it: that results can be written at all.
 Status PrepareOutputFolder(const std::string& folder, const Settings& settings) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Error{fmt::format("{}: cannot make the output folder: {}", folder, error.message())};
+  RemoveFurtherTrajectories(folder);
   return WriteFileAtomically(folder + "/settings.yaml", EffectiveSettingsYaml(settings));
 }
 
@@ -60,8 +71,7 @@ const char* ExplainFailure(const RunSummary& summary, int num_tracked) {
   if (num_tracked > 0) return nullptr;
   if (summary.frames_processed == 0) return "no frame of the sequence could be read";
   return "no camera pose could be computed: the images show too few corners with depth (dark, white or "
-         "without "
-         "depth?)";
+         "without depth?)";
 }
 
 void PrintSummary(const DatasetJob& job, const RunSummary& summary, const System& system) {

@@ -17,6 +17,7 @@ class Accuracy(RgbdTumTest):
     def run_on(self, name, output):
         folder = os.path.join(DATA, name)
         result = self.run_tum("--sequential", "--quiet", sequence=folder, output=output,
+                              vocabulary=os.path.join(ROOT, "Vocabulary", "orbslam.bin"),
                               settings=os.path.join(ROOT, "config", "TUM1.yaml"),
                               associations=os.path.join(folder, "associations.txt"))
         self.assertEqual(result.returncode, 0, result.stderr)

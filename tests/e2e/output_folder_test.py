@@ -54,7 +54,10 @@ class OutputFolder(RgbdTumTest):
 
     def test_results_of_an_earlier_run_are_replaced(self):
         self.run_tum()
+        for name in ("CameraTrajectory_2.txt", "CameraTrajectory_3.txt", "KeyFrameTrajectory_2.txt"):
+            os.rename(self.sequence.write(name, "of another map\n"), os.path.join(self.output, name))
         self.assert_works(self.run_tum("--max-frames", "3"), tracked=3)
+        self.assertEqual(sorted(os.listdir(self.output)), sorted(OUTPUTS))
 
     def test_nobody_reads_what_is_printed(self):
         """Closed or full standard streams cost no results, and no result file gets their text."""
