@@ -192,6 +192,10 @@ int Measure(const Arguments& arguments) {
   std::printf("%s: k %d, L %d, %d words, opened in %.1f ms\n", arguments.vocabulary.c_str(),
               vocabulary->branching(), vocabulary->depth(), vocabulary->num_words(), opening.count());
   const Views views = MakeViews(arguments);
+  if (views.places.empty()) {
+    std::fprintf(stderr, "measure_vocabulary: the folders hold no picture with enough corners\n");
+    return 2;
+  }
   std::printf("%zu places, every second one in the database\n", views.places.size());
   std::ofstream csv;
   if (!arguments.csv.empty()) csv.open(arguments.csv);

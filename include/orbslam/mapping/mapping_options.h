@@ -6,7 +6,7 @@ namespace orbslam {
 /// Thresholds of LocalMapping; values of ORB-SLAM2 (Mur-Artal and Tardos 2017) unless a line says otherwise.
 struct MappingOptions {
   double min_found_ratio = 0.25;  // young points found in fewer of the frames that should see them are erased
-  int min_young_observations = 2;    // a young point must have so many by the third keyframe after its own
+  int min_young_observations = 2;    // a young point must have so many by the second keyframe after its own
   int triangulation_neighbors = 10;  // covisible keyframes that new points are made with
   double min_parallax_cos = 0.9998;  // rays closer than 1.1 degrees give no point
   int fusion_neighbors = 10;         // covisible keyframes, and ...
