@@ -31,11 +31,13 @@ inline Eigen::Vector3d RandomVisiblePoint(const StereoIntrinsics& k, Rng* rng) {
   return {(u - k.cx) / k.fx * z, (v - k.cy) / k.fy * z, z};
 }
 
-/// What the camera measures of a point in its frame; without depth, u_right is -1.
+/// What the camera measures of a point in its frame: u, v and disparity, each with its own error. Without depth,
+/// u_right is -1.
 inline Eigen::Vector3d Measure(const StereoIntrinsics& k, const Eigen::Vector3d& x, double noise_px,
                                bool has_depth, Rng* rng) {
-  Eigen::Vector3d pixel = k.Project(x) + RandomVector(rng, noise_px);
-  if (!has_depth) pixel.z() = -1;
+  const Eigen::Vector3d error_px = RandomVector(rng, noise_px);
+  Eigen::Vector3d pixel = k.Project(x) + error_px;
+  pixel.z() = has_depth ? pixel.z() + error_px.x() : -1;
   return pixel;
 }
 
