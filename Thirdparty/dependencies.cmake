@@ -12,3 +12,7 @@ find_dependency(nlohmann_json)
 find_dependency(PkgConfig)
 pkg_check_modules(spng REQUIRED IMPORTED_TARGET spng)
 pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)
+pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
+# Of PCL the first library and the headers; modules name the others one by one (pcl_segmentation ...): PCL's own
+# package file, and pkg-config's entries for those, drag in VTK, Qt, HDF5 and MPI.
+pkg_check_modules(pcl REQUIRED IMPORTED_TARGET pcl_common)
