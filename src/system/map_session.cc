@@ -13,14 +13,14 @@ StageMode ModeOfStages(const RunMode& mode) {
 
 }  // namespace
 
-MapSession::MapSession(const Sensor& sensor, const OrbExtractorOptions& orb, RunMode mode,
+MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode mode,
                        std::shared_ptr<const Vocabulary> vocabulary, MapData map)
     : mode_(mode),
       map_(std::move(map)),
       places_(vocabulary ? std::optional<PlaceIndex>(std::in_place, vocabulary) : std::nullopt),
-      tracking_(sensor, orb, TrackingOptions(), KeyFramePolicyOptions(), places_ ? &*places_ : nullptr,
+      tracking_(sensor, settings.orb, settings.tracking, settings.keyframes, places_ ? &*places_ : nullptr,
                 &map_),
-      mapping_(sensor, MappingOptions(), &map_),
+      mapping_(sensor, settings.mapping, &map_),
       loop_stage_(
           "loop_closing", kMaxWaitingLoops,
           [this](const KeyFrameMapped& message) { loop_closing_->Process(message); }, ModeOfStages(mode)),
@@ -31,9 +31,11 @@ MapSession::MapSession(const Sensor& sensor, const OrbExtractorOptions& orb, Run
     for (const KeyFrame& keyframe : map_.Read()->KeyFrames()) {
       places_->Add(keyframe.id, places_->Transform(*keyframe.features));
     }
+  }
+  if (places_ && settings.closes_loops) {
     const auto global_bundle =
         mode.is_sequential ? LoopClosing::GlobalBundle::kInline : LoopClosing::GlobalBundle::kBeside;
-    loop_closing_.emplace(sensor, LoopOptions(), global_bundle, &*places_, &turn_, &map_);
+    loop_closing_.emplace(sensor, settings.loops, global_bundle, &*places_, &turn_, &map_);
   }
   loop_stage_.Start();
   mapping_stage_.Start();

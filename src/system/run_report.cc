@@ -27,7 +27,8 @@ Json TimingsJson(const System& system) {
 /// One array a column, one entry a processed frame.
 Json FramesJson(const std::vector<FrameReport>& frames) {
   Json json;
-  for (const char* column : {"timestamp_s", "state", "keypoints", "matches", "tracking_s", "tracking_cpu_s"}) {
+  for (const char* column :
+       {"timestamp_s", "state", "keypoints", "matches", "tracking_s", "tracking_cpu_s"}) {
     json[column] = Json::array();
   }
   for (const FrameReport& frame : frames) {

@@ -33,8 +33,8 @@ System::~System() { Shutdown(); }
 
 void System::StartSession(MapData map) {
   last_tracked_s_.reset();
-  sessions_.push_back(std::make_unique<MapSession>(sensor_, settings_.orb, options_.mode, options_.vocabulary,
-                                                   std::move(map)));
+  sessions_.push_back(
+      std::make_unique<MapSession>(sensor_, settings_, options_.mode, options_.vocabulary, std::move(map)));
   sessions_.back()->SetLocalizationMode(is_localizing_);
 }
 
@@ -91,24 +91,22 @@ std::vector<const MapSession*> System::SessionsLargestFirst() const {
   return sorted;
 }
 
-Status System::SaveTrajectory(const std::string& path) const {
+template <class PosesOf>
+Status System::SaveAll(const std::string& path, PosesOf poses_of) const {
   int number = 0;
   for (const MapSession* session : SessionsLargestFirst()) {
-    const Status status =
-        WriteTrajectory(Numbered(path, ++number), session->trajectory().Camera(session->map()));
+    const Status status = WriteTrajectory(Numbered(path, ++number), poses_of(*session));
     if (!status) return status;
   }
   return OkStatus();
 }
 
+Status System::SaveTrajectory(const std::string& path) const {
+  return SaveAll(path, [](const MapSession& s) { return s.trajectory().Camera(s.map()); });
+}
+
 Status System::SaveKeyFrameTrajectory(const std::string& path) const {
-  int number = 0;
-  for (const MapSession* session : SessionsLargestFirst()) {
-    const Status status =
-        WriteTrajectory(Numbered(path, ++number), session->trajectory().KeyFrames(session->map()));
-    if (!status) return status;
-  }
-  return OkStatus();
+  return SaveAll(path, [](const MapSession& s) { return s.trajectory().KeyFrames(s.map()); });
 }
 
 Status System::SaveMap(const std::string& path) const {

@@ -9,6 +9,7 @@
 #include "orbslam/loop/loop_closing.h"
 #include "orbslam/mapping/local_mapping.h"
 #include "orbslam/pipeline/edit_turn.h"
+#include "orbslam/system/settings.h"
 #include "orbslam/system/trajectory_log.h"
 #include "orbslam/tracking/tracking.h"
 #include "orbslam/util/stage.h"
@@ -26,7 +27,7 @@ struct RunMode {
 class MapSession {
  public:
   /// vocabulary may be nullptr: then no loops are closed. A map that is not empty is known already.
-  MapSession(const Sensor& sensor, const OrbExtractorOptions& orb, RunMode mode,
+  MapSession(const Sensor& sensor, const Settings& settings, RunMode mode,
              std::shared_ptr<const Vocabulary> vocabulary, MapData map);
 
   FrameReport Track(const RgbdImage& image);

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "orbslam/io/settings.h"
 #include "orbslam/pipeline/messages.h"
 #include "orbslam/pipeline/sensor.h"
 #include "orbslam/system/map_session.h"
+#include "orbslam/system/settings.h"
 #include "orbslam/util/result.h"
 #include "orbslam/util/stage_timer.h"
 #include "orbslam/vocabulary/vocabulary.h"
@@ -84,6 +84,9 @@ class System {
   void StartSession(MapData map);
   void StartNewMapIfLost(const FrameReport& report);
   std::vector<const MapSession*> SessionsLargestFirst() const;
+  /// poses_of(session) -> the poses to be written for it.
+  template <class PosesOf>
+  Status SaveAll(const std::string& path, PosesOf poses_of) const;
 
   const Settings settings_;
   const SystemOptions options_;

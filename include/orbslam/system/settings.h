@@ -8,16 +8,25 @@
 #include "orbslam/camera/depth_model.h"
 #include "orbslam/camera/pinhole_camera.h"
 #include "orbslam/features/orb_extractor.h"
+#include "orbslam/loop/loop_options.h"
+#include "orbslam/mapping/mapping_options.h"
+#include "orbslam/tracking/tracking_options.h"
 #include "orbslam/util/result.h"
 
 namespace orbslam {
 
-/// What a settings file says; the keys are ORB-SLAM2's, listed once in settings.cc.
+/// What a settings file says: ORB-SLAM2's keys for camera, depth and features, and a section for each stage.
+/// All are listed once, in settings_table.cc.
 struct Settings {
   PinholeCamera camera;
   double fps = 30;  // Camera.fps, frames a second
   DepthModel depth;
   OrbExtractorOptions orb;
+  TrackingOptions tracking;
+  KeyFramePolicyOptions keyframes;
+  MappingOptions mapping;
+  bool closes_loops = true;
+  LoopOptions loops;
 
   Settings() { camera.width = 640, camera.height = 480; }
 };

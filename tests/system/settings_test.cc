@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "orbslam/io/settings.h"
+#include "orbslam/system/settings.h"
 
 #include <gmock/gmock.h>
 
@@ -126,6 +126,22 @@ TEST(Settings, WhatMayBeLeftOutIsAndTheRestIsNot) {
     EXPECT_THAT(ErrorAfter("\n" + key, "\nelse"),
                 HasSubstr("changed.yaml: " + key + " is missing, expected a"));
   }
+}
+
+TEST(Settings, SectionsOfTheStagesAreOptionalAndReachTheirOptions) {
+  const TempDir dir;
+  const std::string yaml = *ReadFile(ConfigPath("TUM3.yaml")) +
+                           "Tracking.minInliers: 33\nLocalMapping.maxBundleKeyFrames: 12\n"
+                           "LoopClosing:\n  enabled: 0\n  minInliers: 25\n";
+  std::vector<std::string> warnings;
+  const Result<Settings> settings = ReadSettings(dir.Write("a.yaml", yaml), &warnings);
+  ASSERT_TRUE(settings.ok()) << settings.error().message;
+  EXPECT_THAT(warnings, IsEmpty());
+  EXPECT_EQ(settings->tracking.min_local_inliers, 33);
+  EXPECT_EQ(settings->mapping.max_bundle_keyframes, 12);
+  EXPECT_EQ(settings->mapping.max_bundle_fixed, MappingOptions().max_bundle_fixed);
+  EXPECT_FALSE(settings->closes_loops);
+  EXPECT_EQ(settings->loops.min_inliers, 25);
 }
 
 TEST(Settings, ValuesOutOfRangeAreNamed) {

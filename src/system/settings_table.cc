@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "settings_table.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace orbslam {
+namespace {
+
+using Rows = std::vector<ConfigRow>;
+constexpr auto kRequired = ConfigRow::kRequired;
+constexpr auto kOptional = ConfigRow::kOptional;
+
+constexpr ConfigRange kSidePx{1, 16384};
+constexpr ConfigRange kFocalPx{0, 1e5, true};
+constexpr ConfigRange kCentrePx{-16384, 16384};  // of a cropped image it may lie outside
+constexpr ConfigRange kDistortion{-1000, 1000};
+constexpr ConfigRange kPositive{0, 1e6, true};
+constexpr ConfigRange kGrey{1, 255};
+constexpr ConfigRange kShare{0, 1};
+constexpr ConfigRange kCount{0, 100000};
+constexpr ConfigRange kSome{1, 100000};
+
+Rows CameraRows(PinholeCamera* camera, double* fps) {
+  auto& [k1, k2, p1, p2, k3] = camera->distortion;
+  return {
+      {"Camera.width", &camera->width, kOptional, kSidePx, "px"},
+      {"Camera.height", &camera->height, kOptional, kSidePx, "px"},
+      {"Camera.fx", &camera->fx, kRequired, kFocalPx, "px, focal length"},
+      {"Camera.fy", &camera->fy, kRequired, kFocalPx, "px"},
+      {"Camera.cx", &camera->cx, kRequired, kCentrePx,
+       "px, principal point; (0, 0) is the first pixel's centre"},
+      {"Camera.cy", &camera->cy, kRequired, kCentrePx, "px"},
+      {"Camera.k1", &k1, kOptional, kDistortion, "radial distortion, OpenCV's model"},
+      {"Camera.k2", &k2, kOptional, kDistortion},
+      {"Camera.p1", &p1, kOptional, kDistortion, "tangential distortion"},
+      {"Camera.p2", &p2, kOptional, kDistortion},
+      {"Camera.k3", &k3, kOptional, kDistortion, "radial distortion"},
+      {"Camera.fps", fps, kOptional, {0, 1000, true}, "frames a second"},
+  };
+}
+
+Rows DepthRows(DepthModel* depth) {
+  return {
+      {"Camera.bf", &depth->baseline_times_fx, kRequired, kPositive,
+       "px * m, baseline of the virtual right camera * fx"},
+      {"ThDepth", &depth->close_limit_baselines, kRequired, kPositive, "baselines; a nearer point is close"},
+      {"DepthMapFactor", &depth->units_per_metre, kRequired, kPositive,
+       "units of the depth image in a metre"},
+  };
+}
+
+Rows OrbRows(OrbExtractorOptions* orb) {
+  return {
+      {"ORBextractor.nFeatures", &orb->num_features, kRequired, {50, 20000}, "wanted in an image"},
+      {"ORBextractor.scaleFactor",
+       &orb->scale_factor,
+       kRequired,
+       {1, 2, true},
+       "between levels of the pyramid"},
+      {"ORBextractor.nLevels", &orb->num_levels, kRequired, {1, 16}, "of the pyramid"},
+      {"ORBextractor.iniThFAST", &orb->fast_threshold, kRequired, kGrey, "grey levels"},
+      {"ORBextractor.minThFAST", &orb->min_fast_threshold, kRequired, kGrey,
+       "grey levels, where the first finds nothing"},
+  };
+}
+
+Rows TrackingRows(TrackingOptions* tracking, KeyFramePolicyOptions* keyframes) {
+  return {
+      {"Tracking.minInitialDepthPoints", &tracking->min_initial_depth_points, kOptional, kSome,
+       "to start a map"},
+      {"Tracking.minInliers", &tracking->min_local_inliers, kOptional, kSome,
+       "map points; with fewer the camera is lost"},
+      {"Tracking.minRelocalizedInliers", &tracking->min_relocalized_inliers, kOptional, kSome,
+       "the same when it was lost before"},
+      {"Tracking.maxLocalKeyFrames", &tracking->max_local_keyframes, kOptional, kSome,
+       "whose points are looked for in a frame"},
+      {"Tracking.maxKeyFrameInterval", &keyframes->max_interval_s, kOptional, kPositive,
+       "s, between keyframes while something new is seen"},
+      {"Tracking.minTrackedRatio", &keyframes->min_tracked_ratio, kOptional, kShare,
+       "of the reference keyframe's points; below, a keyframe is made"},
+      {"Tracking.minDepthPoints", &keyframes->min_depth_points, kOptional, kCount,
+       "made at a keyframe, nearest first, even beyond ThDepth"},
+  };
+}
+
+Rows MappingRows(MappingOptions* mapping) {
+  return {
+      {"LocalMapping.minFoundRatio", &mapping->min_found_ratio, kOptional, kShare,
+       "of the frames that should see a young point; below, it is erased"},
+      {"LocalMapping.triangulationNeighbors", &mapping->triangulation_neighbors, kOptional, kCount,
+       "keyframes that new points are made with"},
+      {"LocalMapping.maxBundleKeyFrames", &mapping->max_bundle_keyframes, kOptional, kSome,
+       "that move in a local bundle adjustment"},
+      {"LocalMapping.maxBundleFixed", &mapping->max_bundle_fixed, kOptional, kSome,
+       "that hold them in place"},
+      {"LocalMapping.redundantRatio", &mapping->redundant_ratio, kOptional, kShare,
+       "of a keyframe's points seen by others, to erase it"},
+  };
+}
+
+Rows LoopRows(bool* closes_loops, LoopOptions* loops) {
+  return {
+      {"LoopClosing.enabled", closes_loops, kOptional, {}, "needs a vocabulary"},
+      {"LoopClosing.minKeyFramesBetween", &loops->min_keyframes_between, kOptional, kCount, "two loops"},
+      {"LoopClosing.minConsistency", &loops->min_consistency, kOptional, kSome,
+       "keyframes in a row that see the same place"},
+      {"LoopClosing.minInliers", &loops->min_inliers, kOptional, kSome, "matches that agree with the motion"},
+      {"LoopClosing.minTotalMatches", &loops->min_total_matches, kOptional, kSome,
+       "those of the place's neighbours included"},
+  };
+}
+
+}  // namespace
+
+std::vector<ConfigRow> DescribeSettings(Settings* settings) {
+  Rows all;
+  const auto add = [&](Rows rows) { std::ranges::move(rows, std::back_inserter(all)); };
+  add(CameraRows(&settings->camera, &settings->fps));
+  add(DepthRows(&settings->depth));
+  add(OrbRows(&settings->orb));
+  add(TrackingRows(&settings->tracking, &settings->keyframes));
+  add(MappingRows(&settings->mapping));
+  add(LoopRows(&settings->closes_loops, &settings->loops));
+  return all;
+}
+
+}  // namespace orbslam
