@@ -15,6 +15,7 @@ struct Vertex {
   Eigen::Vector3f position;  // metres, frame of the mesh
   Eigen::Vector3f normal;    // unit, outwards
   Eigen::Vector2f uv;        // of the texture, which repeats; v runs down the image
+  float light = 1;           // share of the lamps' and the room's light that arrives: baked shadows
 };
 
 /// Triangles, counter-clockwise seen from outside; three indices of vertices each.
