@@ -9,14 +9,15 @@
 
 namespace orbslam {
 
-LocalMapTracker::Result LocalMapTracker::Track(Frame* frame, PointCounter* counter) {
+LocalMapTracker::Result LocalMapTracker::Track(const MovingRegion& moving, Frame* frame,
+                                               PointCounter* counter) {
   Result result;
   {
     const auto guard = map_.Read();
     const std::vector<KeyFrameId> keyframes = LocalKeyFrames(*guard, *frame);
     if (keyframes.empty()) return result;
     result.reference = keyframes.front();
-    CollectCandidates(*guard, *frame, keyframes);
+    CollectCandidates(*guard, *frame, keyframes, moving, &result.on_moving);
   }
   MatchCandidates(frame, counter);
   result.num_inliers = RefinePose(map_, sensor_, frame);
@@ -55,7 +56,8 @@ std::vector<KeyFrameId> LocalMapTracker::LocalKeyFrames(const MapData& map, cons
 }
 
 void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
-                                        const std::vector<KeyFrameId>& keyframes) {
+                                        const std::vector<KeyFrameId>& keyframes, const MovingRegion& moving,
+                                        std::vector<MapPointId>* on_moving) {
   ++visit_;
   queries_.clear();
   candidates_.clear();
@@ -69,8 +71,14 @@ void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
   for (const KeyFrameId keyframe : keyframes) {
     for (const MapPointId id : map.Find(keyframe)->points) {
       if (!id.IsValid() || !is_new(id)) continue;
-      auto view = PredictView(*map.Find(id), frame.camera_from_world, sensor_, options_.min_view_cos);
+      const MapPoint& point = *map.Find(id);
+      auto view = PredictView(point, frame.camera_from_world, sensor_, options_.min_view_cos);
       if (!view) continue;
+      const Eigen::Vector3d x_camera = frame.camera_from_world * point.position_world;
+      if (moving.Covers(x_camera)) {
+        if (moving.Shows(x_camera)) on_moving->push_back(id);
+        continue;
+      }
       const bool is_head_on = view->view_cos > 0.998;
       view->query.radius_px *=
           static_cast<float>(options_.local_radius_factor *

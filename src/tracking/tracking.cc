@@ -2,6 +2,7 @@
 #include "orbslam/tracking/tracking.h"
 
 #include <algorithm>
+#include <string>
 
 #include "orbslam/tracking/keyframe_creator.h"
 #include "orbslam/util/resource_usage.h"
@@ -17,14 +18,16 @@ Tracking::Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const T
       extractor_(orb),
       frame_tracker_(*map, sensor_, options_),
       local_map_tracker_(*map, sensor_, options_),
-      relocalizer_(*map, places, sensor_, RelocalizerOptions()) {
+      relocalizer_(*map, places, sensor_, RelocalizerOptions()),
+      moving_(sensor_, {}, {}) {
   if (map->Read()->num_keyframes() > 0) state_ = TrackingState::kLost;
 }
 
-FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper) {
+FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper,
+                              const MaskOfFrame& mask_of_frame) {
   const CpuStopwatch stopwatch;
   FrameReport report{.id = image.id, .timestamp_s = image.timestamp_s};
-  Frame frame = MakeFrame(image);
+  Frame frame = MakeFrame(image, mask_of_frame, &report);
   report.num_keypoints = frame.features->size();
   if (state_ == TrackingState::kNotInitialized) {
     Initialize(&frame, &report);
@@ -40,16 +43,38 @@ FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper) 
   return report;
 }
 
-Frame Tracking::MakeFrame(const RgbdImage& image) {
+Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_frame, FrameReport* report) {
   OrbFeatures raw;
   {
     const auto measure = timer_.Measure("extract");
     raw = extractor_.Extract(image.gray);
   }
-  auto features = std::make_shared<const FrameFeatures>(
-      MakeFrameFeatures(raw, image.depth_m, cv::Mat(), sensor_.camera, sensor_.bounds, sensor_.depth));
-  std::vector<MapPointId> points(features->size());
-  return {image.id, image.timestamp_s, std::move(features), Rigid3d(), std::move(points)};
+  const auto features_off = [&](const cv::Mat& mask) {
+    return MakeFrameFeatures(raw, image.depth_m, mask, sensor_.camera, sensor_.bounds, sensor_.depth);
+  };
+  report->moving = AskForMask(image.timestamp_s, mask_of_frame);
+  FrameFeatures features = features_off(report->moving.mask);
+  is_mask_unused_ =
+      features.size() < std::min(options_.min_unmasked_keypoints, static_cast<int>(raw.keypoints.size()));
+  if (is_mask_unused_) {
+    report->moving.fail_open_reason =
+        "the mask leaves only " + std::to_string(features.size()) + " keypoints";
+    report->moving.mask = cv::Mat();
+    features = features_off(cv::Mat());
+  }
+  moving_ = MovingRegion(sensor_, report->moving.mask, image.depth_m);
+  report->num_dropped_keypoints = static_cast<int>(raw.keypoints.size()) - features.size();
+  std::vector<MapPointId> points(features.size());
+  return {image.id, image.timestamp_s, std::make_shared<const FrameFeatures>(std::move(features)), Rigid3d(),
+          std::move(points)};
+}
+
+DynamicMask Tracking::AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame) {
+  if (!mask_of_frame) return {};
+  const auto measure = timer_.Measure("wait_for_mask");
+  if (!last_) return mask_of_frame(Rigid3d());
+  const Rigid3d predicted = motion_.Predict(last_->camera_from_world, timestamp_s - last_->timestamp_s);
+  return mask_of_frame(predicted * Inverse(last_->camera_from_world));
 }
 
 void Tracking::Initialize(Frame* frame, FrameReport* report) {
@@ -74,7 +99,9 @@ void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report
     motion_.Update(last_->timestamp_s, last_->camera_from_world, frame->timestamp_s,
                    frame->camera_from_world);
   }
-  if (makes_keyframes_ && WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
+  if (!makes_keyframes_) return;
+  EraseCondemnedPoints();
+  if (!is_mask_unused_ && WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
 }
 
 bool Tracking::Locate(Frame* frame, FrameReport* report) {
@@ -115,13 +142,25 @@ bool Tracking::TakeBetterPose(Frame* frame) {
 
 bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   const auto measure = timer_.Measure("local_map");
-  const LocalMapTracker::Result result = local_map_tracker_.Track(frame, &counter_);
+  const LocalMapTracker::Result result = local_map_tracker_.Track(moving_, frame, &counter_);
   report->num_matches = result.num_inliers;
   const bool is_lost = state_ == TrackingState::kLost;
   if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
     return false;
   reference_ = result.reference;
+  for (const MapPointId id : result.on_moving) quarantine_.ShownOnMovingObject(id);
+  for (const MapPointId id : frame->points) quarantine_.FoundStatic(id);
   return true;
+}
+
+/// Points on something that turned out to move: made before anyone knew.
+void Tracking::EraseCondemnedPoints() {
+  const std::vector<MapPointId> condemned = quarantine_.TakeCondemned();
+  if (condemned.empty()) return;
+  const auto guard = map_->Write();
+  for (const MapPointId id : condemned) {
+    if (guard->Find(id) != nullptr) guard->EraseMapPoint(id);
+  }
 }
 
 bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const {

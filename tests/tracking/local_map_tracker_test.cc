@@ -42,6 +42,7 @@ class LocalMapTrackerTest : public SyntheticMap {
   const Rigid3d truth_ = RandomMotion(&rng_, 0.05, 0.05);
   const TrackingOptions options_;
   LocalMapTracker tracker_{map_, sensor_, options_};
+  const MovingRegion nothing_moves_{sensor_, {}, {}};
   PointCounter counter_;
 };
 
@@ -51,7 +52,7 @@ TEST_F(LocalMapTrackerTest, FindsTheNeighboursPointsAndThePose) {
     const KeyFrameId other = known == left_ ? right_ : left_;
     const int num_before = frame.NumPoints();
     ASSERT_EQ(NumPointsOnlyIn(other, frame), 0);
-    const LocalMapTracker::Result result = tracker_.Track(&frame, &counter_);
+    const LocalMapTracker::Result result = tracker_.Track(nothing_moves_, &frame, &counter_);
     EXPECT_EQ(result.num_inliers, frame.NumPoints());
     EXPECT_GT(result.num_inliers, 2 * num_before);
     EXPECT_GT(NumPointsOnlyIn(other, frame), 50);
@@ -63,13 +64,13 @@ TEST_F(LocalMapTrackerTest, FindsTheNeighboursPointsAndThePose) {
 TEST_F(LocalMapTrackerTest, ReferenceSharesMostPoints) {
   for (const KeyFrameId known : {left_, right_}) {
     Frame frame = FrameWithFirstPoints(known);
-    EXPECT_EQ(tracker_.Track(&frame, &counter_).reference, known);
+    EXPECT_EQ(tracker_.Track(nothing_moves_, &frame, &counter_).reference, known);
   }
 }
 
 TEST_F(LocalMapTrackerTest, CountsWhatWasInViewOnceAndWhatWasFound) {
   Frame frame = FrameWithFirstPoints(left_);
-  tracker_.Track(&frame, &counter_);
+  tracker_.Track(nothing_moves_, &frame, &counter_);
   const std::set<MapPointId> found(frame.points.begin(), frame.points.end());
   const std::vector<PointStatistics> counts = counter_.Take();
   EXPECT_GT(std::ssize(counts), frame.NumPoints() - 1);
@@ -81,14 +82,14 @@ TEST_F(LocalMapTrackerTest, CountsWhatWasInViewOnceAndWhatWasFound) {
 
 TEST_F(LocalMapTrackerTest, NoPointIsFoundAtTwoKeypoints) {
   Frame frame = FrameWithFirstPoints(left_);
-  tracker_.Track(&frame, &counter_);
+  tracker_.Track(nothing_moves_, &frame, &counter_);
   std::set<MapPointId> found;
   for (const MapPointId id : frame.points) EXPECT_TRUE(!id.IsValid() || found.insert(id).second);
 }
 
 TEST_F(LocalMapTrackerTest, FrameWithoutPointsHasNoReference) {
   Frame frame = See(truth_);
-  const LocalMapTracker::Result result = tracker_.Track(&frame, &counter_);
+  const LocalMapTracker::Result result = tracker_.Track(nothing_moves_, &frame, &counter_);
   EXPECT_EQ(result.num_inliers, 0);
   EXPECT_FALSE(result.reference.IsValid());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "orbslam/geometry/rigid3.h"
+#include "orbslam/pipeline/dynamic_mask.h"
 #include "orbslam/util/ids.h"
 
 namespace orbslam {
@@ -48,6 +50,10 @@ struct MapperLoad {
   bool accepts_keyframe = true;  // its queue has room
 };
 
+/// How Tracking gets the mask of the frame it has: called once, when its keypoints are extracted, with the
+/// camera's predicted motion since the last frame (now_from_last); may wait.
+using MaskOfFrame = std::function<DynamicMask(const Rigid3d& now_from_last)>;
+
 /// What Tracking says of a frame.
 struct FrameReport {
   FrameId id;
@@ -58,8 +64,10 @@ struct FrameReport {
   Rigid3d camera_from_reference;  // what trajectories are made of, since keyframes are refined later
   double tracking_s = 0;          // wall time from the image to the pose
   double tracking_cpu_s = 0;      // CPU time of the calling thread in it
-  int num_keypoints = 0;
-  int num_matches = 0;  // inliers among the map points it sees
+  int num_keypoints = 0;          // those on moving objects left out
+  int num_matches = 0;            // inliers among the map points it sees
+  DynamicMask moving;             // the mask that was used; its fail_open_reason also says why one was not
+  int num_dropped_keypoints = 0;  // those on moving objects
   std::optional<KeyFrameReady> new_keyframe;
 };
 

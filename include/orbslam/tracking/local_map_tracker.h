@@ -7,6 +7,7 @@
 #include "orbslam/matching/projection_search.h"
 #include "orbslam/pipeline/frame.h"
 #include "orbslam/pipeline/sensor.h"
+#include "orbslam/tracking/moving_region.h"
 #include "orbslam/tracking/point_counter.h"
 #include "orbslam/tracking/tracking_options.h"
 
@@ -22,13 +23,16 @@ class LocalMapTracker {
   struct Result {
     int num_inliers = 0;
     KeyFrameId reference;  // the keyframe that shares most points with the frame; invalid: none does
+    std::vector<MapPointId> on_moving;  // local points that a moving object shows, by the frame's first pose
   };
-  /// frame must have a first pose and first points. Counts what was visible and what was found.
-  Result Track(Frame* frame, PointCounter* counter);
+  /// frame must have a first pose and first points. Counts what was visible and what was found; what moving
+  /// objects hide is neither looked for nor counted.
+  Result Track(const MovingRegion& moving, Frame* frame, PointCounter* counter);
 
  private:
   std::vector<KeyFrameId> LocalKeyFrames(const MapData& map, const Frame& frame) const;
-  void CollectCandidates(const MapData& map, const Frame& frame, const std::vector<KeyFrameId>& keyframes);
+  void CollectCandidates(const MapData& map, const Frame& frame, const std::vector<KeyFrameId>& keyframes,
+                         const MovingRegion& moving, std::vector<MapPointId>* on_moving);
   void MatchCandidates(Frame* frame, PointCounter* counter);
 
   const Map& map_;

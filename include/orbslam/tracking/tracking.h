@@ -10,7 +10,9 @@
 #include "orbslam/tracking/keyframe_policy.h"
 #include "orbslam/tracking/local_map_tracker.h"
 #include "orbslam/tracking/motion_model.h"
+#include "orbslam/tracking/moving_region.h"
 #include "orbslam/tracking/point_counter.h"
+#include "orbslam/tracking/quarantine.h"
 #include "orbslam/tracking/relocalizer.h"
 #include "orbslam/tracking/tracking_options.h"
 #include "orbslam/util/stage_timer.h"
@@ -26,7 +28,9 @@ class Tracking {
   Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const TrackingOptions& options,
            const KeyFramePolicyOptions& policy, const PlaceIndex* places, Map* map);
 
-  FrameReport Process(const RgbdImage& image, const MapperLoad& mapper = {});
+  /// mask_of_frame: asked for the frame's mask; empty: nothing moves.
+  FrameReport Process(const RgbdImage& image, const MapperLoad& mapper = {},
+                      const MaskOfFrame& mask_of_frame = {});
 
   /// In localisation mode no keyframes are made: the map stays as it is.
   void SetLocalizationMode(bool is_on) { makes_keyframes_ = !is_on; }
@@ -35,7 +39,8 @@ class Tracking {
   const StageTimer& timer() const { return timer_; }
 
  private:
-  Frame MakeFrame(const RgbdImage& image);
+  Frame MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_frame, FrameReport* report);
+  DynamicMask AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame);
   void Initialize(Frame* frame, FrameReport* report);
   void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
   bool Locate(Frame* frame, FrameReport* report);
@@ -45,6 +50,7 @@ class Tracking {
   void FollowMapCorrections();
   KeyFrameEvidence GatherEvidence(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
   bool WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
+  void EraseCondemnedPoints();
   void InsertKeyFrame(Frame* frame, FrameReport* report);
   void Remember(Frame frame, FrameReport* report);
 
@@ -58,13 +64,16 @@ class Tracking {
   Relocalizer relocalizer_;
   MotionModel motion_;
   PointCounter counter_;
+  Quarantine quarantine_;
   StageTimer timer_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
   bool makes_keyframes_ = true;
-  uint64_t epoch_ = 0;         // of the map, when the present frame was begun
-  std::optional<Frame> last_;  // the last frame that was tracked
-  KeyFrameId reference_;       // the keyframe that shares most points with it
+  MovingRegion moving_;          // of the present frame
+  bool is_mask_unused_ = false;  // the present frame may show moving objects as if they were static
+  uint64_t epoch_ = 0;           // of the map, when the present frame was begun
+  std::optional<Frame> last_;    // the last frame that was tracked
+  KeyFrameId reference_;         // the keyframe that shares most points with it
   Rigid3d last_from_reference_;
   double last_keyframe_s_ = 0;
   KeyFrameId last_keyframe_;

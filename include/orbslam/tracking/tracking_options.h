@@ -20,6 +20,8 @@ struct TrackingOptions {
   double local_radius_factor = 2;      // of both. ORB-SLAM2: 3
   double max_ratio_local = 0.8;
   double max_ratio_reference = 0.7;
+  int min_unmasked_keypoints = 50;  // fewer off a mask: it is not used. What min_local_inliers needs, with a
+                                    // margin for keypoints that are no map points
   double min_view_cos = 0.5;  // 60 degrees from a point's mean viewing direction
 };
 

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "orbslam/map/invariants.h"
+#include "orbslam/tracking/tracking.h"
+#include "support/matchers.h"
+#include "support/synthetic_view.h"
+
+namespace orbslam::test {
+namespace {
+
+/// Grey noise with corners of several pixels.
+cv::Mat Noise(const cv::Size& size, uint64_t seed) {
+  cv::Mat coarse(size.height / 4, size.width / 4, CV_8UC1), fine;
+  cv::RNG(seed).fill(coarse, cv::RNG::UNIFORM, 0, 256);
+  cv::resize(coarse, fine, size, 0, 0, cv::INTER_LINEAR);
+  return fine;
+}
+
+/// A camera that rests before a wall, and a board that slides along between them.
+class MaskedTrackingTest : public testing::Test {
+ protected:
+  static constexpr float kWallM = 2.5, kBoardM = 1.5;
+  static constexpr int kSpeedPx = 6;
+
+  RgbdImage Image(int board_u) {
+    RgbdImage image;
+    image.id = FrameId(num_shown_);
+    image.timestamp_s = num_shown_++ / 30.0;
+    image.gray = wall_.clone();
+    image.depth_m = cv::Mat(size_, CV_32FC1, cv::Scalar(kWallM));
+    board_.copyTo(image.gray(BoardAt(board_u)));
+    image.depth_m(BoardAt(board_u)) = kBoardM;
+    return image;
+  }
+  cv::Rect BoardAt(int board_u) const { return {board_u, 140, board_.cols, board_.rows}; }
+  cv::Mat Mask(const cv::Rect& moving) const {
+    cv::Mat mask = cv::Mat::zeros(size_, CV_8UC1);
+    mask(moving) = 255;
+    return mask;
+  }
+  FrameReport Show(int board_u, const cv::Mat& mask) {
+    return tracking_.Process(Image(board_u), {}, [&](const Rigid3d&) {
+      DynamicMask result;
+      result.mask = mask;
+      return result;
+    });
+  }
+  FrameReport ShowMasked(int board_u) { return Show(board_u, Mask(BoardAt(board_u))); }
+
+  int NumPointsOnBoard() const {
+    int count = 0;
+    const auto map = map_.Read();
+    for (const MapPoint& point : map->MapPoints()) count += point.position_world.z() < (kBoardM + kWallM) / 2;
+    return count;
+  }
+
+  const Sensor sensor_ = KinectSensor();
+  const cv::Size size_{sensor_.camera.width, sensor_.camera.height};
+  const cv::Mat wall_ = Noise(size_, 1), board_ = Noise({200, 200}, 2);
+  uint32_t num_shown_ = 0;
+  Map map_{MapData(sensor_.pyramid)};
+  Tracking tracking_{sensor_, OrbExtractorOptions(), TrackingOptions(), KeyFramePolicyOptions(), nullptr,
+                     &map_};
+};
+
+TEST_F(MaskedTrackingTest, WhatIsMaskedIsNeitherFollowedNorMapped) {
+  for (int i = 0; i < 20; ++i) {
+    const FrameReport report = ShowMasked(100 + kSpeedPx * i);
+    ASSERT_EQ(report.state, TrackingState::kOk);
+    EXPECT_THAT(*report.world_from_camera, Rigid3dNear(Rigid3d(), 0.002, 0.002));
+    EXPECT_GT(report.num_dropped_keypoints, 50);
+  }
+  EXPECT_EQ(NumPointsOnBoard(), 0);
+}
+
+TEST_F(MaskedTrackingTest, PointsOnWhatTurnsOutToMoveAreErasedAndOthersStay) {
+  for (int i = 0; i < 3; ++i) Show(100, {});
+  const int num_on_board = NumPointsOnBoard(), num_points = map_.Read()->num_points();
+  ASSERT_GT(num_on_board, 50);
+  for (int i = 0; i < 6; ++i) ShowMasked(100 + i);
+  EXPECT_LT(NumPointsOnBoard(), 0.25 * num_on_board) << "all but those at the rim";
+  EXPECT_GE(map_.Read()->num_points(), num_points - num_on_board);
+  EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty());
+}
+
+TEST_F(MaskedTrackingTest, InLocalizationModeNothingIsErased) {
+  for (int i = 0; i < 3; ++i) Show(100, {});
+  const int num_points = map_.Read()->num_points();
+  tracking_.SetLocalizationMode(true);
+  for (int i = 0; i < 6; ++i) ShowMasked(100);
+  EXPECT_EQ(map_.Read()->num_points(), num_points);
+}
+
+TEST_F(MaskedTrackingTest, AMaskThatLeavesTooLittleIsNotUsedAndSaysSo) {
+  Show(100, {});
+  for (int i = 1; i < 60; ++i) {  // more than the longest time between keyframes
+    const FrameReport report = Show(100, cv::Mat(size_, CV_8UC1, cv::Scalar(255)));
+    ASSERT_EQ(report.state, TrackingState::kOk);
+    EXPECT_THAT(report.moving.fail_open_reason, testing::HasSubstr("leaves only 0 keypoints"));
+    EXPECT_TRUE(report.moving.mask.empty());
+    EXPECT_EQ(report.num_dropped_keypoints, 0);
+    EXPECT_FALSE(report.new_keyframe);
+  }
+}
+
+TEST_F(MaskedTrackingTest, TheMaskIsAskedForOnceAFrameWithThePredictedMotion) {
+  int num_asked = 0;
+  for (int i = 0; i < 5; ++i) {
+    tracking_.Process(Image(100), {}, [&](const Rigid3d& now_from_last) {
+      ++num_asked;
+      EXPECT_THAT(now_from_last, Rigid3dNear(Rigid3d(), 0.005, 0.005));
+      return DynamicMask();
+    });
+  }
+  EXPECT_EQ(num_asked, 5);
+}
+
+}  // namespace
+}  // namespace orbslam::test
