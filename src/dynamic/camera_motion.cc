@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "camera_motion.h"
+
+#include <algorithm>
+
+#include "orbslam/geometry/so3.h"
+
+namespace orbslam {
+namespace {
+
+Eigen::Vector3f Point(const GridCamera& camera, cv::Point2f pixel, float depth_m) {
+  return {(pixel.x - camera.cx) / camera.fx * depth_m, (pixel.y - camera.cy) / camera.fy * depth_m, depth_m};
+}
+
+cv::Point2f Project(const GridCamera& camera, const Rigid3d& pose, const Eigen::Vector3f& x) {
+  const Eigen::Vector3d q = pose * x.cast<double>();
+  const double z = std::max(q.z(), 0.05);
+  return {static_cast<float>(camera.fx * q.x() / z + camera.cx), static_cast<float>(camera.fy * q.y() / z + camera.cy)};
+}
+
+}  // namespace
+
+Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
+  if (previous_interval_s_ <= 0) return {};
+  const double ratio = std::clamp(interval_s / previous_interval_s_, 0.0, 3.0);
+  return {So3Exp(ratio * So3Log(velocity_.rotation)), ratio * velocity_.translation};
+}
+
+std::vector<TrackedCorner> CameraMotionEstimator::Follow(const ReferenceView& previous, const WorkingFrame& current,
+                                                         const Rigid3d& predicted) const {
+  const WorkingFrame& last = *previous.frame;
+  const std::vector<cv::Point2f> positions = SpreadCorners(last.gray, {}, options_.corners);
+  std::vector<cv::Point2f> expected(positions.size());
+  std::vector<TrackedCorner> corners(positions.size());
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const int u = static_cast<int>(positions[i].x) / 2, v = static_cast<int>(positions[i].y) / 2;
+    TrackedCorner& corner = corners[i];
+    corner.previous = positions[i];
+    corner.depth_m = last.depth_m(v, u);
+    corner.was_moving = previous.moving(v, u) != 0;
+    // Without depth, as if far away: the flow is then that of the rotation.
+    expected[i] = Project(grids_.gray, predicted, Point(grids_.gray, positions[i], corner.depth_m > 0 ? corner.depth_m : 3.f));
+  }
+  const std::vector<FlowResult> flow = TrackPatches(last.pyramid, current.pyramid, positions, expected, options_.flow);
+  std::vector<TrackedCorner> tracked;
+  for (size_t i = 0; i < flow.size(); ++i) {
+    if (!flow[i].ok) continue;
+    corners[i].current = flow[i].position;
+    tracked.push_back(corners[i]);
+  }
+  return tracked;
+}
+
+CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const WorkingFrame& current,
+                                             uint64_t seed) {
+  const ReferenceView& previous = *history.Back(1);
+  const double interval_s = current.timestamp_s - previous.frame->timestamp_s;
+  const Rigid3d predicted = Predict(interval_s);
+  CameraMotion motion;
+  motion.corners = Follow(previous, current, predicted);
+
+  std::vector<CornerMatch> matches;
+  for (const TrackedCorner& corner : motion.corners)
+    if (corner.depth_m > 0 && !corner.was_moving)
+      matches.push_back({Point(grids_.gray, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
+  Rng rng(seed, 0, 0xE60);
+  const PoseFromCorners from_corners = EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
+  motion.num_inliers = from_corners.num_inliers;
+  motion.color_current_from_previous = from_corners.ok ? from_corners.current_from_previous : predicted;
+
+  std::vector<IcpTarget> targets{{previous.frame.get(), &previous.moving, {}}};
+  if (const ReferenceView* far = history.Back(options_.far_target))
+    targets.push_back({far->frame.get(), &far->moving, far->reference_from_current});
+  const IcpResult icp = AlignDepth(grids_.cell, current, nullptr, targets,
+                                   Inverse(motion.color_current_from_previous), options_.icp);
+  motion.fit_share = icp.FitShare();
+  motion.depth_current_from_previous = Inverse(icp.base_from_source);
+
+  for (TrackedCorner& corner : motion.corners) {
+    corner.has_expected = corner.depth_m > 0;
+    corner.expected = corner.has_expected ? Project(grids_.gray, motion.color_current_from_previous,
+                                                    Point(grids_.gray, corner.previous, corner.depth_m))
+                                          : corner.current;
+  }
+  if (!from_corners.ok) motion.failure = "too few corners could be followed";
+  if (motion.fit_share < options_.min_fit_share) motion.failure = "the depth does not fit the last frame's";
+  velocity_ = from_corners.ok ? from_corners.current_from_previous : Inverse(icp.base_from_source);
+  previous_interval_s_ = interval_s;
+  return motion;
+}
+
+}  // namespace orbslam

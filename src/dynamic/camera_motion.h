@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corner_flow.h"
+#include "ego_motion.h"
+#include "scene_history.h"
+
+namespace orbslam {
+
+struct CameraMotionOptions {
+  CornerOptions corners;
+  FlowOptions flow;
+  PoseFromCornersOptions pose;
+  IcpOptions icp;
+  int far_target = 8;              // frames back: the second target of the alignment, against drift
+  double min_fit_share = 0.5;      // of the paired depth within 3 sigma
+};
+
+/// A corner followed from the last frame into this one.
+struct TrackedCorner {
+  cv::Point2f previous, current;  // grey grid, px
+  cv::Point2f expected;           // where a static point would be now; equal to current without depth
+  float depth_m = 0;              // in the last frame; 0: none
+  bool was_moving = false;        // in the last mask
+  bool has_expected = false;
+};
+
+/// How the camera moved from the last frame to this one. Colour and depth images are taken at different times
+/// (up to 15 ms apart): each has a motion of its own.
+struct CameraMotion {
+  Rigid3d color_current_from_previous, depth_current_from_previous;
+  std::vector<TrackedCorner> corners;
+  int num_inliers = 0;
+  double fit_share = 0;
+  std::string failure;  // why it is not to be trusted; empty: it is
+};
+
+class CameraMotionEstimator {
+ public:
+  CameraMotionEstimator(const WorkingGrids& grids, const CameraMotionOptions& options)
+      : grids_(grids), options_(options) {}
+
+  /// seed: of the random draws, for example the frame's id.
+  CameraMotion Estimate(const SceneHistory& history, const WorkingFrame& current, uint64_t seed);
+  void Reset() { velocity_ = {}, previous_interval_s_ = 0; }
+
+ private:
+  std::vector<TrackedCorner> Follow(const ReferenceView& previous, const WorkingFrame& current,
+                                    const Rigid3d& predicted) const;
+  Rigid3d Predict(double interval_s) const;
+
+  WorkingGrids grids_;
+  CameraMotionOptions options_;
+  Rigid3d velocity_;  // the last colour motion, over previous_interval_s_
+  double previous_interval_s_ = 0;
+};
+
+}  // namespace orbslam

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "corner_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/features2d.hpp>
+
+namespace orbslam {
+namespace {
+
+constexpr int kSize = 12;      // px, side of a patch
+constexpr int kPixels = kSize * kSize;
+constexpr float kHalf = 5.5f;  // from a patch's first pixel to its centre
+
+struct Patch {
+  float value[kPixels], slope_x[kPixels], slope_y[kPixels];
+  float inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  // of the summed structure tensor
+};
+
+/// Bilinear sample of a rectangle of w x h pixels whose first is at (x, y); false: not inside.
+template <int w, int h>
+bool Sample(const cv::Mat1f& image, float x, float y, float* out) {
+  const int x0 = cvFloor(x), y0 = cvFloor(y);
+  if (x0 < 0 || y0 < 0 || x0 + w + 1 > image.cols || y0 + h + 1 > image.rows) return false;
+  const float ax = x - static_cast<float>(x0), ay = y - static_cast<float>(y0);
+  const float w00 = (1 - ax) * (1 - ay), w01 = ax * (1 - ay), w10 = (1 - ax) * ay, w11 = ax * ay;
+  for (int j = 0; j < h; ++j) {
+    const float *top = image[y0 + j] + x0, *bottom = image[std::min(y0 + j + 1, image.rows - 1)] + x0;
+    for (int i = 0; i < w; ++i)
+      out[j * w + i] = w00 * top[i] + w01 * top[i + 1] + w10 * bottom[i] + w11 * bottom[i + 1];
+  }
+  return true;
+}
+
+/// The template at a position: values, slopes by central differences, and the inverse of their tensor.
+bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, float min_texture, Patch* patch) {
+  constexpr int kWide = kSize + 2;
+  float wide[kWide * kWide];
+  if (!Sample<kWide, kWide>(image, centre.x - kHalf - 1, centre.y - kHalf - 1, wide)) return false;
+  float xx = 0, xy = 0, yy = 0;
+  for (int j = 0; j < kSize; ++j) {
+    const float* row = wide + (j + 1) * kWide + 1;
+    for (int i = 0; i < kSize; ++i) {
+      const float gx = 0.5f * (row[i + 1] - row[i - 1]), gy = 0.5f * (row[i + kWide] - row[i - kWide]);
+      const int k = j * kSize + i;
+      patch->value[k] = row[i], patch->slope_x[k] = gx, patch->slope_y[k] = gy;
+      xx += gx * gx, xy += gx * gy, yy += gy * gy;
+    }
+  }
+  const float smaller = 0.5f * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy));
+  if (smaller < min_texture * kPixels * 0.1f) return false;
+  const float inverse_det = 1 / (xx * yy - xy * xy);
+  patch->inverse_xx = yy * inverse_det, patch->inverse_xy = -xy * inverse_det, patch->inverse_yy = xx * inverse_det;
+  return true;
+}
+
+/// Gauss-Newton on the position of a patch in an image; false: left the image.
+bool Refine(const Patch& patch, const cv::Mat1f& image, const FlowOptions& options, cv::Point2f* position,
+            float* difference_grey) {
+  float now[kPixels], error[kPixels];
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
+    float bx = 0, by = 0;
+    for (int k = 0; k < kPixels; ++k) error[k] = patch.value[k] - now[k];
+    for (int k = 0; k < kPixels; ++k) bx += error[k] * patch.slope_x[k];
+    for (int k = 0; k < kPixels; ++k) by += error[k] * patch.slope_y[k];
+    const float dx = patch.inverse_xx * bx + patch.inverse_xy * by;
+    const float dy = patch.inverse_xy * bx + patch.inverse_yy * by;
+    position->x += dx, position->y += dy;
+    if (dx * dx + dy * dy < options.min_step_px * options.min_step_px) break;
+  }
+  if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
+  float sum = 0;
+  for (int k = 0; k < kPixels; ++k) sum += std::abs(patch.value[k] - now[k]);
+  *difference_grey = sum / kPixels;
+  return true;
+}
+
+FlowResult TrackPatch(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to, cv::Point2f position,
+                      cv::Point2f predicted, const FlowOptions& options) {
+  FlowResult result;
+  cv::Point2f flow = predicted - position;
+  Patch patch;
+  for (int level = static_cast<int>(from.size()) - 1; level >= 0; --level) {
+    // Halving by pyrDown keeps the centre of pixel (2 i, 2 j) at (i, j).
+    const float scale = 1 / static_cast<float>(1 << level);
+    const cv::Point2f here = position * scale;
+    cv::Point2f there = here + flow * scale;
+    const bool ok = MakePatch(from[level], here, options.min_texture, &patch) &&
+                    Refine(patch, to[level], options, &there, &result.difference_grey);
+    if (ok) flow = (there - here) / scale;
+    if (!ok && level == 0) return result;  // coarser levels see less of the rim; the finest must succeed
+  }
+  result.position = position + flow;
+  result.ok = result.difference_grey < options.max_difference_grey;
+  return result;
+}
+
+bool IsAllowed(const cv::Mat1b& allowed, const cv::Mat1b& gray, const cv::KeyPoint& corner) {
+  if (allowed.empty()) return true;
+  const int step = gray.cols / allowed.cols;
+  return allowed(static_cast<int>(corner.pt.y) / step, static_cast<int>(corner.pt.x) / step) != 0;
+}
+
+}  // namespace
+
+std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& allowed,
+                                       const CornerOptions& options) {
+  std::vector<cv::KeyPoint> corners;
+  cv::FAST(gray, corners, options.fast_threshold, true);
+  std::vector<std::vector<const cv::KeyPoint*>> cells(options.columns * options.rows);
+  const int margin = static_cast<int>(kHalf) + 3;
+  for (const cv::KeyPoint& corner : corners) {
+    const int x = static_cast<int>(corner.pt.x), y = static_cast<int>(corner.pt.y);
+    if (x < margin || y < margin || x >= gray.cols - margin || y >= gray.rows - margin) continue;
+    if (!IsAllowed(allowed, gray, corner)) continue;
+    cells[y * options.rows / gray.rows * options.columns + x * options.columns / gray.cols].push_back(&corner);
+  }
+  std::vector<cv::Point2f> chosen;
+  for (auto& cell : cells) {
+    const size_t count = std::min(cell.size(), static_cast<size_t>(options.per_cell));
+    std::partial_sort(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(count), cell.end(),
+                      [](const cv::KeyPoint* a, const cv::KeyPoint* b) {
+                        if (a->response != b->response) return a->response > b->response;
+                        return a < b;
+                      });
+    for (size_t i = 0; i < count; ++i) chosen.push_back(cell[i]->pt);
+  }
+  return chosen;
+}
+
+std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to,
+                                     const std::vector<cv::Point2f>& positions,
+                                     const std::vector<cv::Point2f>& predicted, const FlowOptions& options) {
+  std::vector<FlowResult> results(positions.size());
+  for (size_t i = 0; i < positions.size(); ++i)
+    results[i] = TrackPatch(from, to, positions[i], predicted[i], options);
+  return results;
+}
+
+}  // namespace orbslam

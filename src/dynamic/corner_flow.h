@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace orbslam {
+
+struct CornerOptions {
+  int columns = 16, rows = 12;  // cells of the grid over the image in which corners compete
+  int per_cell = 2;             // strongest corners kept in each
+  int fast_threshold = 10;      // grey levels: 3 sigma of the difference of two 8-bit camera pixels
+};
+
+/// Corners (FAST-9, Rosten and Drummond 2006) of a grey image, spread over it. allowed: of the same size or
+/// half of it, 0: no corner here; empty: everywhere.
+std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& allowed, const CornerOptions& options);
+
+struct FlowOptions {
+  int max_iterations = 8;            // Gauss-Newton steps a level
+  float min_step_px = 0.03f;         // converged; a tenth of the noise of the flow itself
+  float min_texture = 25.f;          // smaller eigenvalue of the mean structure tensor, (grey levels / px)^2
+  float max_difference_grey = 20.f;  // mean absolute difference of the patches in the end
+};
+
+struct FlowResult {
+  cv::Point2f position;
+  float difference_grey = 0;  // mean absolute, of the patches
+  bool ok = false;
+};
+
+/// Where patches of one pyramid are in another: iterative Lucas-Kanade from coarse to fine on patches of 12 x
+/// 12 px (Bouguet 2001), started from predicted. Pyramids: CV_32F, each level half of the last.
+std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to,
+                                     const std::vector<cv::Point2f>& positions,
+                                     const std::vector<cv::Point2f>& predicted, const FlowOptions& options);
+
+}  // namespace orbslam

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ego_motion.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "orbslam/geometry/so3.h"
+
+namespace orbslam {
+namespace {
+
+using Matrix6f = Eigen::Matrix<float, 6, 6>;
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+
+struct Motion {
+  Eigen::Matrix3f rotation;
+  Eigen::Vector3f translation;
+};
+
+Motion ToMotion(const Rigid3d& pose) {
+  return {pose.RotationMatrix().cast<float>(), pose.translation.cast<float>()};
+}
+
+/// Squared reprojection error, px^2; huge behind the camera.
+float SquaredError(const GridCamera& camera, const Motion& motion, const CornerMatch& match) {
+  const Eigen::Vector3f q = motion.rotation * match.x_previous + motion.translation;
+  if (q.z() < 0.05f) return 1e9f;
+  const float du = camera.fx * q.x() / q.z() + camera.cx - match.pixel.x();
+  const float dv = camera.fy * q.y() / q.z() + camera.cy - match.pixel.y();
+  return du * du + dv * dv;
+}
+
+/// One Gauss-Newton step over the given matches, each weighted by Tukey's biweight of scale (px); 0: all alike.
+Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matches, const std::vector<int>& used,
+                const Rigid3d& pose, float scale_px) {
+  const Motion motion = ToMotion(pose);
+  Matrix6f hessian = Matrix6f::Identity() * 1e-3f;
+  Vector6f gradient = Vector6f::Zero();
+  for (const int index : used) {
+    const CornerMatch& match = matches[index];
+    const Eigen::Vector3f q = motion.rotation * match.x_previous + motion.translation;
+    if (q.z() < 0.05f) continue;
+    const float iz = 1 / q.z(), x = q.x() * iz, y = q.y() * iz;
+    const Eigen::Vector2f error(camera.fx * x + camera.cx - match.pixel.x(),
+                                camera.fy * y + camera.cy - match.pixel.y());
+    float weight = 1;
+    if (scale_px > 0) {
+      const float share2 = error.squaredNorm() / (scale_px * scale_px);
+      if (share2 >= 1) continue;
+      weight = (1 - share2) * (1 - share2);
+    }
+    Eigen::Matrix<float, 2, 6> jacobian;  // rotation, then translation, on the left of the pose
+    jacobian << -camera.fx * x * y, camera.fx * (1 + x * x), -camera.fx * y, camera.fx * iz, 0, -camera.fx * x * iz,
+        -camera.fy * (1 + y * y), camera.fy * x * y, camera.fy * x, 0, camera.fy * iz, -camera.fy * y * iz;
+    hessian.noalias() += weight * jacobian.transpose() * jacobian;
+    gradient.noalias() += weight * jacobian.transpose() * error;
+  }
+  const Eigen::Matrix<double, 6, 1> step = (-hessian.ldlt().solve(gradient)).cast<double>();
+  if (!step.allFinite()) return pose;
+  return Rigid3d{So3Exp(step.head<3>()), step.tail<3>()} * pose;
+}
+
+/// Truncated sum of squared errors (MSAC, Torr and Zisserman 2000).
+float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, const Rigid3d& pose, float inlier_px) {
+  const Motion motion = ToMotion(pose);
+  float sum = 0;
+  for (const CornerMatch& match : matches)
+    sum += std::min(SquaredError(camera, motion, match), inlier_px * inlier_px);
+  return sum;
+}
+
+Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>& matches,
+                       const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options, Rng* rng) {
+  Rigid3d best = candidates.front();
+  float best_cost = Cost(camera, matches, best, options.inlier_px);
+  const auto consider = [&](const Rigid3d& pose) {
+    const float cost = Cost(camera, matches, pose, options.inlier_px);
+    if (cost < best_cost) best = pose, best_cost = cost;
+  };
+  for (size_t i = 1; i < candidates.size(); ++i) consider(candidates[i]);
+  const Rigid3d start = best;
+  const auto count = static_cast<uint32_t>(matches.size());
+  std::vector<int> triple(3);
+  for (int draw = 0; draw < options.num_draws; ++draw) {
+    for (int& index : triple) index = static_cast<int>(rng->Below(count));
+    if (triple[0] == triple[1] || triple[0] == triple[2] || triple[1] == triple[2]) continue;
+    Rigid3d pose = start;
+    for (int i = 0; i < 3; ++i) pose = Improve(camera, matches, triple, pose, 0);
+    consider(pose);
+  }
+  return best;
+}
+
+}  // namespace
+
+PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerMatch>& matches,
+                             const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
+                             Rng* rng) {
+  PoseFromCorners result;
+  result.current_from_previous = candidates.front();
+  result.is_inlier.assign(matches.size(), 0);
+  if (static_cast<int>(matches.size()) < options.min_inliers) return result;
+  Rigid3d pose = BestHypothesis(camera, matches, candidates, options, rng);
+  std::vector<int> all(matches.size());
+  for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  for (int i = 0; i < 5; ++i) pose = Improve(camera, matches, all, pose, 1.5f * options.inlier_px);
+  const Motion motion = ToMotion(pose);
+  for (size_t i = 0; i < matches.size(); ++i)
+    if (SquaredError(camera, motion, matches[i]) < options.inlier_px * options.inlier_px) {
+      result.is_inlier[i] = 1;
+      ++result.num_inliers;
+    }
+  result.ok = result.num_inliers >= options.min_inliers;
+  result.current_from_previous = pose;
+  return result;
+}
+
+}  // namespace orbslam

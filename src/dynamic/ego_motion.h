@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "orbslam/geometry/rigid3.h"
+#include "orbslam/util/random.h"
+#include "working_frame.h"
+
+namespace orbslam {
+
+/// A corner of the last frame that was found in this one.
+struct CornerMatch {
+  Eigen::Vector3f x_previous;   // metres, camera frame of the last colour image
+  Eigen::Vector2f pixel;        // grey grid, in this image
+};
+
+struct PoseFromCornersOptions {
+  int num_draws = 80;         // with 60 % outliers 3 of 3 are inliers in 99 % of 80 draws
+  float inlier_px = 2.f;      // grey px: 3 sigma of the flow and of the depth's parallax
+  int min_inliers = 12;       // twice the unknowns
+};
+
+struct PoseFromCorners {
+  Rigid3d current_from_previous;
+  int num_inliers = 0;
+  std::vector<uint8_t> is_inlier;  // of each match
+  bool ok = false;
+};
+
+/// The camera's motion from corners: RANSAC over triples, in which the candidates given (a motion model, "no
+/// motion") compete; then Gauss-Newton on the inliers.
+PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerMatch>& matches,
+                             const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
+                             Rng* rng);
+
+}  // namespace orbslam

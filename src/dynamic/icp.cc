@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "icp.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "depth_noise.h"
+#include "orbslam/geometry/so3.h"
+
+namespace orbslam {
+namespace {
+
+using Matrix6f = Eigen::Matrix<float, 6, 6>;
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+
+struct Sums {
+  float hessian[21] = {};   // upper triangle, row by row
+  float gradient[6] = {};
+  int num_pairs = 0, num_fitting = 0;
+
+  void Add(const float (&j)[6], float residual, float weight) {
+    int k = 0;
+    for (int a = 0; a < 6; ++a) {
+      const float wa = weight * j[a];
+      gradient[a] += wa * residual;
+      for (int b = a; b < 6; ++b) hessian[k++] += wa * j[b];
+    }
+  }
+};
+
+/// Adds the pairs of all source points with one target, at the given pose. The perturbation (rotation w,
+/// translation v) acts in the source frame: x -> x + w x x + v.
+void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Mat1b* ignored_source,
+              const IcpTarget& target, const Rigid3d& target_from_source, const IcpOptions& options, Sums* sums) {
+  const Eigen::Matrix3f r = target_from_source.RotationMatrix().cast<float>();
+  const Eigen::Vector3f t = target_from_source.translation.cast<float>();
+  const WorkingFrame& frame = *target.frame;
+  const float inverse_fx = 1 / camera.fx, inverse_fy = 1 / camera.fy;
+  const float gate2 = options.gate_sigma * options.gate_sigma;
+  for (int v = options.stride / 2; v < camera.height; v += options.stride) {
+    const float* depth = source.depth_m[v];
+    const float b = (static_cast<float>(v) - camera.cy) * inverse_fy;
+    for (int u = options.stride / 2; u < camera.width; u += options.stride) {
+      const float z = depth[u];
+      if (!(z > 0) || (ignored_source != nullptr && (*ignored_source)(v, u) != 0)) continue;
+      const float x = (static_cast<float>(u) - camera.cx) * inverse_fx * z, y = b * z;
+      const float qz = r(2, 0) * x + r(2, 1) * y + r(2, 2) * z + t.z();
+      if (qz < 0.1f) continue;
+      const float qx = r(0, 0) * x + r(0, 1) * y + r(0, 2) * z + t.x();
+      const float qy = r(1, 0) * x + r(1, 1) * y + r(1, 2) * z + t.y();
+      const float inverse_qz = 1 / qz;
+      const float pu = qx * inverse_qz * camera.fx + camera.cx + 0.5f;
+      const float pv = qy * inverse_qz * camera.fy + camera.cy + 0.5f;
+      if (pu < 0 || pv < 0 || pu >= static_cast<float>(camera.width) || pv >= static_cast<float>(camera.height))
+        continue;
+      const int tu = static_cast<int>(pu), tv = static_cast<int>(pv);
+      const float nz = frame.normal_z(tv, tu), tz = frame.depth_m(tv, tu);
+      if (nz == 0 || (target.ignored != nullptr && (*target.ignored)(tv, tu) != 0)) continue;
+      const float nx = frame.normal_x(tv, tu), ny = frame.normal_y(tv, tu);
+      const float tx = (static_cast<float>(tu) - camera.cx) * inverse_fx * tz;
+      const float ty = (static_cast<float>(tv) - camera.cy) * inverse_fy * tz;
+      const float residual = nx * (qx - tx) + ny * (qy - ty) + nz * (qz - tz);
+      if (std::abs(residual) > options.max_distance_m) continue;
+      const float sigma = std::abs(nz) * (DepthSigmaM(z) + DepthSigmaM(tz)) * 0.7071f + 0.001f;
+      const float share2 = residual * residual / (sigma * sigma * gate2);
+      ++sums->num_pairs;
+      if (share2 < 1) ++sums->num_fitting;
+      const float outer = share2 * 0.25f;  // Tukey's biweight, redescending at twice the gate
+      if (outer >= 1) continue;
+      const float weight = (1 - outer) * (1 - outer) / (sigma * sigma);
+      const float mx = r(0, 0) * nx + r(1, 0) * ny + r(2, 0) * nz;  // the normal in the source frame
+      const float my = r(0, 1) * nx + r(1, 1) * ny + r(2, 1) * nz;
+      const float mz = r(0, 2) * nx + r(1, 2) * ny + r(2, 2) * nz;
+      sums->Add({y * mz - z * my, z * mx - x * mz, x * my - y * mx, mx, my, mz}, residual, weight);
+    }
+  }
+}
+
+/// One Gauss-Newton step with the prior; the pose's perturbation.
+Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const IcpOptions& options) {
+  Matrix6f hessian;
+  Vector6f gradient;
+  int k = 0;
+  for (int a = 0; a < 6; ++a) {
+    gradient[a] = sums.gradient[a];
+    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = sums.hessian[k++];
+  }
+  const auto rotation_weight = static_cast<float>(1 / (options.prior_rotation_rad * options.prior_rotation_rad));
+  const auto translation_weight = static_cast<float>(1 / (options.prior_translation_m * options.prior_translation_m));
+  const Eigen::Vector3f w = So3Log(prior_from_source.rotation).cast<float>();
+  const Eigen::Vector3f v = prior_from_source.translation.cast<float>();
+  for (int a = 0; a < 3; ++a) {
+    hessian(a, a) += rotation_weight, gradient[a] += rotation_weight * w[a];
+    hessian(a + 3, a + 3) += translation_weight, gradient[a + 3] += translation_weight * v[a];
+  }
+  return -hessian.ldlt().solve(gradient);
+}
+
+}  // namespace
+
+IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const cv::Mat1b* ignored_source,
+                     std::span<const IcpTarget> targets, const Rigid3d& base_from_source_prior,
+                     const IcpOptions& options) {
+  IcpResult result;
+  result.base_from_source = base_from_source_prior;
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    Sums sums;
+    for (const IcpTarget& target : targets)
+      AddPairs(camera, source, ignored_source, target, target.target_from_base * result.base_from_source, options,
+               &sums);
+    result.num_pairs = sums.num_pairs, result.num_fitting = sums.num_fitting;
+    const Rigid3d prior_from_source = Inverse(base_from_source_prior) * result.base_from_source;
+    const Eigen::Matrix<double, 6, 1> step = Step(sums, prior_from_source, options).cast<double>();
+    result.base_from_source = result.base_from_source * Rigid3d{So3Exp(step.head<3>()), step.tail<3>()};
+    if (step.head<3>().norm() < 1e-5 && step.tail<3>().norm() < 2e-5) break;
+  }
+  return result;
+}
+
+}  // namespace orbslam

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "orbslam/geometry/rigid3.h"
+#include "working_frame.h"
+
+namespace orbslam {
+
+/// Nearest and farthest depth in the 3 x 3 cells around each; 0: under 6 of the 9 are measured. What lies
+/// before nearest stands in space that was seen empty.
+struct DepthEnvelope {
+  cv::Mat1f nearest_m, farthest_m;
+};
+DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m);
+
+/// A frame of the past, and where it was from the present one.
+struct ReferenceView {
+  std::shared_ptr<const WorkingFrame> frame;
+  DepthEnvelope envelope;
+  cv::Mat1b moving;  // cells that were masked then
+  Rigid3d reference_from_current;
+  int age_frames = 0;
+  bool is_keyframe = false;
+  bool is_aligned = true;  // its own alignment with the present frame succeeded
+};
+
+}  // namespace orbslam

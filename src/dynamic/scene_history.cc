@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_history.h"
+
+#include <algorithm>
+
+namespace orbslam {
+
+const ReferenceView* SceneHistory::Back(int num_back) const {
+  const auto index = static_cast<size_t>(num_back - 1);
+  return index < recent_.size() ? &recent_[index] : nullptr;
+}
+
+void SceneHistory::Advance(const Rigid3d& previous_from_current) {
+  for (auto* views : {&recent_, &keyframes_})
+    for (ReferenceView& view : *views) {
+      view.reference_from_current = view.reference_from_current * previous_from_current;
+      ++view.age_frames;
+    }
+}
+
+void SceneHistory::AlignKeyframes(const WorkingFrame& current, const cv::Mat1b* ignored) {
+  IcpOptions icp;
+  icp.stride = options_.stride, icp.iterations = options_.iterations;
+  icp.prior_translation_m = options_.prior_translation_m, icp.prior_rotation_rad = options_.prior_rotation_rad;
+  for (ReferenceView& view : keyframes_) {
+    const IcpTarget target{view.frame.get(), &view.moving, {}};
+    const IcpResult result = AlignDepth(camera_, current, ignored, {&target, 1}, view.reference_from_current, icp);
+    view.is_aligned = result.num_pairs >= options_.min_pairs && result.FitShare() >= options_.min_fit_share;
+    if (view.is_aligned) view.reference_from_current = result.base_from_source;
+  }
+  std::erase_if(keyframes_, [](const ReferenceView& view) { return !view.is_aligned; });
+}
+
+std::vector<const ReferenceView*> SceneHistory::FreeSpaceReferences() const {
+  std::vector<const ReferenceView*> references;
+  for (const int num_back : {2, 4})
+    if (const ReferenceView* view = Back(num_back)) references.push_back(view);
+  for (const ReferenceView& view : keyframes_)
+    if (view.age_frames > 4) references.push_back(&view);
+  return references;
+}
+
+void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving) {
+  ReferenceView view;
+  view.envelope = MakeEnvelope(frame->depth_m);
+  view.frame = std::move(frame);
+  view.moving = moving;
+  recent_.push_front(view);
+  if (static_cast<int>(recent_.size()) > options_.num_recent) recent_.pop_back();
+  if (++frames_since_keyframe_ >= options_.keyframe_interval) {
+    keyframes_.push_front(std::move(view));
+    if (static_cast<int>(keyframes_.size()) > options_.max_keyframes) keyframes_.pop_back();
+    frames_since_keyframe_ = 0;
+  }
+}
+
+void SceneHistory::Clear() {
+  recent_.clear(), keyframes_.clear();
+  frames_since_keyframe_ = 1 << 20;
+}
+
+}  // namespace orbslam

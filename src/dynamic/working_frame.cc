@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "working_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "normals.h"
+#include "orbslam/util/check.h"
+
+namespace orbslam {
+namespace {
+
+GridCamera Reduced(const PinholeCamera& camera, int step) {
+  const double s = step, shift = (s - 1) / 2;  // from the centre of a block's first pixel to the block's
+  return {camera.width / step,
+          camera.height / step,
+          static_cast<float>(camera.fx / s),
+          static_cast<float>(camera.fy / s),
+          static_cast<float>((camera.cx - shift) / s),
+          static_cast<float>((camera.cy - shift) / s)};
+}
+
+Eigen::Vector2d RawPixel(const PinholeCamera& camera, int step, int u, int v) {
+  const double shift = (step - 1) / 2.0;
+  return camera.Distort({u * step + shift, v * step + shift});
+}
+
+/// The depth of a block of raw pixels: the mean of its larger group, if a depth edge splits it.
+float BlockDepth(const float* corner, size_t stride, int step) {
+  float sum = 0, lowest = 1e9f, highest = 0;
+  int count = 0;
+  for (int y = 0; y < step; ++y)
+    for (int x = 0; x < step; ++x) {
+      const float z = corner[y * stride + x];
+      if (!(z > 0)) continue;
+      sum += z, ++count;
+      lowest = std::min(lowest, z), highest = std::max(highest, z);
+    }
+  if (count * 4 < step * step) return 0;  // mostly unmeasured: edges and shadows, where values are unreliable
+  if (highest - lowest < MaxSurfaceStepM(lowest)) return sum / static_cast<float>(count);
+  const float middle = (lowest + highest) / 2;
+  float near_sum = 0;
+  int near_count = 0;
+  for (int y = 0; y < step; ++y)
+    for (int x = 0; x < step; ++x) {
+      const float z = corner[y * stride + x];
+      if (z > 0 && z < middle) near_sum += z, ++near_count;
+    }
+  if (near_count * 2 >= count) return near_sum / static_cast<float>(near_count);
+  return (sum - near_sum) / static_cast<float>(count - near_count);
+}
+
+}  // namespace
+
+float MaxSurfaceStepM(float depth_m) { return 0.02f + 0.012f * depth_m * depth_m; }
+
+WorkingGrids::WorkingGrids(const PinholeCamera& camera)
+    : gray_step(std::max(1, static_cast<int>(std::lround(camera.width / 320.0)))),
+      cell_step(2 * gray_step),
+      gray(Reduced(camera, gray_step)),
+      cell(Reduced(camera, cell_step)) {
+  gray.width = 2 * cell.width, gray.height = 2 * cell.height;
+}
+
+FrameReducer::FrameReducer(const PinholeCamera& camera)
+    : camera_(camera),
+      grids_(camera),
+      cell_corner_(grids_.cell.height, grids_.cell.width),
+      raw_to_cell_(camera.height, camera.width) {
+  const int step = grids_.cell_step;
+  for (int v = 0; v < grids_.cell.height; ++v)
+    for (int u = 0; u < grids_.cell.width; ++u) {
+      const Eigen::Vector2d raw = RawPixel(camera, step, u, v);
+      const int x = static_cast<int>(std::lround(raw.x() - (step - 1) / 2.0));
+      const int y = static_cast<int>(std::lround(raw.y() - (step - 1) / 2.0));
+      const bool inside = x >= 0 && y >= 0 && x + step <= camera.width && y + step <= camera.height;
+      cell_corner_(v, u) = inside ? y * camera.width + x : -1;
+    }
+
+  std::vector<cv::Point2f> pixels;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      pixels.emplace_back(static_cast<float>(u), static_cast<float>(v));
+  pixels = camera.Undistort(pixels);
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const int u = std::clamp(cvFloor((pixels[i].x + 0.5f) / static_cast<float>(step)), 0, grids_.cell.width - 1);
+    const int v = std::clamp(cvFloor((pixels[i].y + 0.5f) / static_cast<float>(step)), 0, grids_.cell.height - 1);
+    raw_to_cell_(static_cast<int>(i) / camera.width, static_cast<int>(i) % camera.width) =
+        v * grids_.cell.width + u;
+  }
+
+  if (!camera.IsDistorted()) return;
+  cv::Mat2f map(grids_.gray.height, grids_.gray.width);
+  const double half = grids_.gray_step, shift = (half - 1) / 2;
+  for (int v = 0; v < map.rows; ++v)
+    for (int u = 0; u < map.cols; ++u) {
+      const Eigen::Vector2d raw = RawPixel(camera, grids_.gray_step, u, v);
+      map(v, u) = {static_cast<float>((raw.x() - shift) / half), static_cast<float>((raw.y() - shift) / half)};
+    }
+  cv::convertMaps(map, cv::noArray(), gray_map_, gray_map_fraction_, CV_16SC2);
+}
+
+WorkingFrame FrameReducer::Reduce(const RgbdImage& image) const {
+  ORBSLAM_CHECK(image.gray.type() == CV_8UC1 && image.depth_m.type() == CV_32FC1);
+  ORBSLAM_CHECK(image.gray.size() == raw_to_cell_.size() && image.depth_m.size() == raw_to_cell_.size());
+  WorkingFrame frame;
+  frame.timestamp_s = image.timestamp_s;
+  const cv::Mat used = image.gray(
+      cv::Rect(0, 0, grids_.gray.width * grids_.gray_step, grids_.gray.height * grids_.gray_step));
+  cv::Mat halved;
+  cv::resize(used, halved, {grids_.gray.width, grids_.gray.height}, 0, 0, cv::INTER_AREA);
+  if (gray_map_.empty()) {
+    frame.gray = halved;
+  } else {
+    cv::remap(halved, frame.gray, gray_map_, gray_map_fraction_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  }
+  frame.pyramid.resize(3);
+  frame.gray.convertTo(frame.pyramid[0], CV_32F);
+  for (int level = 1; level < 3; ++level) cv::pyrDown(frame.pyramid[level - 1], frame.pyramid[level]);
+
+  frame.depth_m = ReduceDepth(image.depth_m);
+  frame.num_depth_cells = cv::countNonZero(frame.depth_m);
+  ComputeNormals(grids_.cell, &frame);
+  return frame;
+}
+
+cv::Mat1f FrameReducer::ReduceDepth(const cv::Mat1f& raw) const {
+  cv::Mat1f cells(cell_corner_.size());
+  const size_t stride = raw.step1();
+  for (int v = 0; v < cells.rows; ++v)
+    for (int u = 0; u < cells.cols; ++u) {
+      const int index = cell_corner_(v, u);
+      const float* corner = raw.ptr<float>(index / camera_.width) + index % camera_.width;
+      cells(v, u) = index < 0 ? 0.f : BlockDepth(corner, stride, grids_.cell_step);
+    }
+  return cells;
+}
+
+cv::Mat1b FrameReducer::ToRawMask(const cv::Mat1b& cell_mask) const {
+  cv::Mat1b raw(raw_to_cell_.size());
+  const uint8_t* cells = cell_mask.ptr();
+  for (int v = 0; v < raw.rows; ++v) {
+    const int* index = raw_to_cell_[v];
+    uint8_t* out = raw[v];
+    for (int u = 0; u < raw.cols; ++u) out[u] = cells[index[u]] != 0 ? 255 : 0;
+  }
+  return raw;
+}
+
+}  // namespace orbslam
