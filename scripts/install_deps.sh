@@ -11,7 +11,8 @@ packages=(
   libspng-dev libturbojpeg0-dev                            # image decoding
   libcli11-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev  # command line, log, settings, reports
   libgtest-dev libgmock-dev libbenchmark-dev               # tests, benchmarks
-  python3 python3-numpy python3-matplotlib                 # evaluation scripts
+  python3 python3-numpy python3-matplotlib python3-pil     # evaluation scripts
+  python3-yaml                                             # bounds of scripts/regression.sh
   curl                                                     # scripts/fetch_tum.sh
 )
 
