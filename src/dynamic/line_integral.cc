@@ -47,20 +47,18 @@ struct RowReader {
   float operator[](int i) const { return low[i] + fraction * (low[i + 1] - low[i]); }
 };
 
-/// Takes each bin's median over the rows away.
-Matrix WithoutMedians(const Matrix& rows) {
-  Matrix residual = rows;
-  std::vector<float> column(static_cast<size_t>(rows.rows()));
-  for (Eigen::Index bin = 0; bin < rows.cols(); ++bin) {
-    for (Eigen::Index row = 0; row < rows.rows(); ++row) column[row] = rows(row, bin);
-    const auto middle = column.begin() + static_cast<std::ptrdiff_t>(column.size() / 2);
-    std::nth_element(column.begin(), middle, column.end());
-    residual.col(bin).array() -= *middle;
-  }
-  return residual;
+/// Binomial average of each bin and its neighbours; the outermost bins are zero and stay so. Reading between
+/// bins then smooths noise hardly more than reading on them, so that no slope is favoured for falling
+/// between.
+Matrix Smoothed(const Matrix& rows) {
+  Matrix smoothed = rows;
+  const Eigen::Index inner = rows.cols() - 2;
+  smoothed.middleCols(1, inner) =
+      0.25F * (rows.leftCols(inner) + rows.rightCols(inner)) + 0.5F * rows.middleCols(1, inner);
+  return smoothed;
 }
 
-/// Sums, over the bins of the extent, of the second-lowest residual that a velocity meets in the rows.
+/// Sums, over the bins of the extent, of the second-lowest weight that a velocity meets in the rows.
 class PersistentSums {
  public:
   PersistentSums(const MotionHistogram& histogram, const ClusterExtent& extent)
@@ -72,25 +70,31 @@ class PersistentSums {
     };
     first_bin_ = bin_at(extent.low_m);
     const auto count = static_cast<size_t>(bin_at(extent.high_m) - first_bin_ + 1);
-    residual_ = Padded(WithoutMedians(histogram.weights), margin_);
+    padded_ = Smoothed(Padded(histogram.weights, margin_));
     lowest_.resize(count);
     second_.resize(count);
   }
 
-  double At(double velocity_mps) {
+  /// What persists at a velocity, of what the extent holds in the current row.
+  double Along(double velocity_mps) { return Sum(velocity_mps / histogram_.bin_m, 0); }
+  /// What persists at rest where the extent was in the oldest row at that velocity.
+  double AtRest(double velocity_mps) {
+    return Sum(0, -velocity_mps * histogram_.DurationS() / histogram_.bin_m);
+  }
+
+ private:
+  double Sum(double bins_per_s, double shift_bins) {
     std::fill(lowest_.begin(), lowest_.end(), std::numeric_limits<float>::max());
     std::fill(second_.begin(), second_.end(), std::numeric_limits<float>::max());
-    for (Eigen::Index row = 0; row < residual_.rows(); ++row) {
+    for (Eigen::Index row = 0; row < padded_.rows(); ++row) {
       const double age_s = histogram_.times_s[row] - histogram_.times_s.back();
-      const RowReader reader(residual_, row, margin_ + first_bin_, velocity_mps * age_s / histogram_.bin_m);
-      KeepTwoLowest(reader);
+      KeepTwoLowest(RowReader(padded_, row, margin_ + first_bin_, shift_bins + bins_per_s * age_s));
     }
     float sum = 0;
     for (const float value : second_) sum += value;
     return sum;
   }
 
- private:
   static int Margin(const MotionHistogram& histogram) {
     return static_cast<int>(std::ceil(histogram.max_speed_mps * histogram.DurationS() / histogram.bin_m)) + 2;
   }
@@ -109,7 +113,7 @@ class PersistentSums {
   const MotionHistogram& histogram_;
   int margin_;
   int first_bin_ = 0;
-  Matrix residual_;
+  Matrix padded_;
   std::vector<float> lowest_;
   std::vector<float> second_;
 };
@@ -152,16 +156,33 @@ LineIntegral PersistentLineIntegral(const MotionHistogram& histogram, const Clus
   if (histogram.weights.rows() < 3 || !(histogram.DurationS() > 0)) return {};
   const Slopes slopes(histogram);
   PersistentSums sums(histogram, extent);
-  std::vector<double> integrals;
+  const double rest_here = sums.AtRest(0);
+  std::vector<double> gains;
   for (int slope = -slopes.half_count; slope <= slopes.half_count; ++slope) {
-    integrals.push_back(sums.At(slope * slopes.step_mps));
+    const double velocity_mps = slope * slopes.step_mps;
+    gains.push_back(sums.Along(velocity_mps) - std::max(rest_here, sums.AtRest(velocity_mps)));
   }
-  const auto peak = std::max_element(integrals.begin(), integrals.end());
+  const auto peak = std::max_element(gains.begin(), gains.end());
   if (!(*peak > 0)) return {};
-  const auto index = static_cast<int>(peak - integrals.begin());
+  const auto index = static_cast<int>(peak - gains.begin());
   double offset = 0;
   if (index > 0 && index < 2 * slopes.half_count) offset = ParabolaPeak(peak[-1], peak[0], peak[1]);
   return {*peak, *peak / cluster_weight, (index - slopes.half_count + offset) * slopes.step_mps};
+}
+
+ClusterMotion FindClusterMotion(std::span<const HistogramRow> rows, std::span<const Eigen::Vector3f> points_m,
+                                std::span<const Eigen::Vector3f> directions, float max_speed_mps) {
+  ClusterMotion best;
+  const double cluster_weight = SurfaceWeight(points_m);
+  const MotionBall ball = BallAroundCluster(points_m);
+  for (const Eigen::Vector3f& direction : directions) {
+    const SweptVolume volume{ball, direction, max_speed_mps};
+    const LineIntegral line = PersistentLineIntegral(BuildMotionHistogram(rows, volume),
+                                                     ExtentAlong(points_m, volume), cluster_weight);
+    if (line.ratio <= best.ratio) continue;
+    best = {static_cast<float>(line.velocity_mps) * direction, direction, line.ratio};
+  }
+  return best;
 }
 
 }  // namespace orbslam
