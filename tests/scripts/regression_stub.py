@@ -3,8 +3,8 @@
 """Stands in for make_sequence and rgbd_tum, as which it is called, in tests of the scripts that run them.
 
 Estimates are the ground truth with made-up errors of STUB_WITHOUT_M and STUB_WITH_M; masks are the true ones.
-With the switch freeSpace off errors are ten times as large and no masks written. With `fail` in the settings it
-fails.
+With the switch freeSpace off errors are ten times as large and no masks written. It fails if the settings
+hold `fail`.
 """
 import argparse
 import json
