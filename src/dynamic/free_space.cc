@@ -76,12 +76,12 @@ FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_
   for (int i = 0; i < static_cast<int>(depth_m.total()); ++i) {
     const int num_free = votes.num_free(i), num_static = votes.num_static(i);
     candidate(i) = static_cast<float>(num_free) - 0.5f * static_cast<float>(num_static) >= options.min_votes;
-    votes.confirmed_static(i) = num_free == 0 && num_static > 0;
+    votes.confirmed_static(i) = num_free == 0 && num_static > 0 ? 255 : 0;
   }
   cv::Mat1b count;
   cv::boxFilter(candidate, count, -1, {3, 3}, {-1, -1}, false, cv::BORDER_CONSTANT);
   for (int i = 0; i < static_cast<int>(depth_m.total()); ++i)
-    votes.suspicious(i) = candidate(i) != 0 && count(i) >= options.min_suspicious_neighbors;
+    votes.suspicious(i) = candidate(i) != 0 && count(i) >= options.min_suspicious_neighbors ? 255 : 0;
   return votes;
 }
 
