@@ -72,9 +72,9 @@ cv::Mat_<cv::Vec3d> Stripes(Rng* rng) {
 
 cv::Mat_<cv::Vec3d> Print(Rng* rng) {
   cv::Mat picture(kTilePx, kTilePx, CV_64FC3, cv::Scalar(Dye(200, 40, rng)));
-  for (int i = 0; i < 90; ++i) {
+  for (int i = 0; i < 170; ++i) {
     const cv::Point center(static_cast<int>(rng->Below(kTilePx)), static_cast<int>(rng->Below(kTilePx)));
-    const cv::Size axes(static_cast<int>(6 + rng->Below(16)), static_cast<int>(3 + rng->Below(8)));
+    const cv::Size axes(static_cast<int>(3 + rng->Below(16)), static_cast<int>(2 + rng->Below(8)));
     const double angle = rng->Uniform(0, 180);
     const cv::Scalar dye(Dye(i % 3 == 0 ? 210 : 70, 60, rng));
     for (int dy = -1; dy <= 1; ++dy) {
@@ -136,7 +136,7 @@ void Letters(const cv::Rect& area, const cv::Scalar& ink, Rng* rng, cv::Mat* pic
   std::string word;
   const auto count = 4 + rng->Below(3);
   for (uint32_t i = 0; i < count; ++i) word += static_cast<char>('A' + rng->Below(26));
-  const int face = cv::FONT_HERSHEY_DUPLEX, thick = std::max(2, area.height / 9);
+  const int face = cv::FONT_HERSHEY_DUPLEX, thick = std::max(2, std::min(area.height, area.width / 4) / 9);
   int base = 0;
   const cv::Size unit = cv::getTextSize(word, face, 1.0, thick, &base);
   const double scale = std::min(area.width / (unit.width + 4.0), area.height / (unit.height + 4.0));

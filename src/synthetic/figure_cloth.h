@@ -30,8 +30,5 @@ struct FaceRows {
 Picture PaintFace(const FaceRows& rows, const cv::Scalar& skin_bgr, const cv::Scalar& hair_bgr, Rng* rng);
 Picture PaintSkin(const cv::Scalar& skin_bgr, Rng* rng);
 Picture PaintHair(const cv::Scalar& hair_bgr, Rng* rng);
-Picture PaintCarton(Rng* rng);
-/// A board of notices: papers of many sizes with print.
-Picture PaintBoard(Rng* rng);
 
 }  // namespace orbslam

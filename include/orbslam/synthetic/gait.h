@@ -68,8 +68,11 @@ class GaitPlan {
   void WalkTo(const Eigen::Vector2d& target, double speed);
   void SitDown();
   void StandUp();
-  /// Repeats for ever from here, back at the start: the last placement must be the first.
+  /// Repeats for ever from here, back at the start: the last placement must be the first, and the first move
+  /// to Stand.
   void Loop();
+  /// At(0) will be `time_s` of the plan: before it all has happened already.
+  void StartAt(double time_s) { first_s_ = time_s; }
 
   double duration_s() const { return end_s_; }
   const Placement& end() const { return end_; }
@@ -100,7 +103,7 @@ class GaitPlan {
   double half_stance_m_;
   FootShape shape_;
   bool loops_ = false;
-  double end_s_ = 0, seated_ = 0;
+  double end_s_ = 0, first_s_ = 0, seated_ = 0;
   Placement start_, end_;
   std::array<Placement, 2> prints_;
   std::vector<Piece> pieces_;

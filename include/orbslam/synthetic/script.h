@@ -36,25 +36,26 @@ std::optional<ScriptKind> ParseScript(std::string_view name);
 std::string_view ScriptName(ScriptKind kind);
 std::span<const ScriptKind> AllScripts();
 
+struct ScriptCast;
+
 /// Where the camera is in the mean and what it looks at: world frame, metres, z up, the floor at z = 0.
 struct CameraView {
   Eigen::Vector3d position{0.0, -0.4, 1.4}, target{0.0, 2.1, 0.9};
 };
 
 /// People and things that move through the room of MakeRoom, played to a camera. People keep to the free
-/// floor, |x| < kFreeX, |y| < kFreeY. Everything is a pure function of (kind, seed, view, time): the seed
-/// varies clothes, heights, speeds, places and pauses.
+/// floor, |x| < kFreeX, |y| < kFreeY, at least kMinDistanceM from the camera's mean place (kClose: kCloseM),
+/// and pass each other at 0.4 m or more (middle to middle). Everything is a pure function of (kind, seed,
+/// view, time): the seed varies clothes, heights, speeds, places and pauses.
 class Script {
  public:
   static constexpr double kFreeX = 1.9, kFreeY = 1.4;  // metres
-  static constexpr double kMovingSpeed = 0.02;         // m/s
+  static constexpr double kMinDistanceM = 0.8, kCloseM = 0.48;
+  static constexpr double kMovingSpeed = 0.02;  // m/s
   static constexpr double kMovingWindowS = 1.0 / 30;
   static constexpr uint8_t kFirstPersonLabel = 1, kSecondPersonLabel = 2, kFirstThingLabel = 3;
 
   Script(ScriptKind kind, uint64_t seed, const CameraView& view);
-  ~Script();
-  Script(const Script&);
-  Script& operator=(const Script&);
 
   /// Everything that can move, with a label of its own per person or thing; a person's parts share one. A
   /// part is_moving if its fastest vertex went further than kMovingSpeed * kMovingWindowS during the last
@@ -62,8 +63,7 @@ class Script {
   std::vector<SceneObject> ObjectsAt(double time_s) const;
 
  private:
-  struct Cast;
-  std::shared_ptr<const Cast> cast_;
+  std::shared_ptr<const ScriptCast> cast_;
 };
 
 }  // namespace orbslam
