@@ -3,9 +3,10 @@
 """Tells what each switch of the detector of moving objects is worth: turns one at a time, and evaluates.
 
 Switches are the settings DynamicDetector.* that are true or false, as rgbd_tum itself reports them; each run
-turns one of them against its default. Prints Markdown tables, switches x sequences: ATE RMSE, coverage,
-precision and recall of the masks, share of static pixels masked wrongly. Runs are sequential, and so exactly
-repeatable. Exit codes: 0 done, 1 a run failed (its cells say so), 2 bad input.
+turns one of them against its default. `--also DynamicDetector.mode=paper` adds a row for another value of any
+setting. Prints Markdown tables, switches x sequences: ATE RMSE, coverage, recall and precision of the masks,
+share of static pixels masked wrongly. Runs are sequential, and so exactly repeatable.
+Exit codes: 0 done, 1 a run failed (its cells say so), 2 bad input.
 """
 import argparse
 import os
@@ -45,15 +46,18 @@ def switches_of(report):
 
 
 def with_value(settings_text, key, value):
-    """The settings, as rgbd_tum writes them, with another value of one switch."""
-    text, count = re.subn(rf"(?m)^{re.escape(key)}:.*$", f"{key}: {int(value)}", settings_text)
+    """The settings, as rgbd_tum writes them, with another value (text) of one."""
+    text, count = re.subn(rf"(?m)^{re.escape(key)}:.*$", lambda _: f"{key}: {value}", settings_text)
     if count != 1:
-        raise InputError(f"settings.yaml of rgbd_tum has {count} lines `{key}: ...`, expected one")
+        raise InputError(f"rgbd_tum knows no setting {key}; its settings.yaml lists them")
     return text
 
 
-def row_title(key, default):
-    return f"{'without' if default else 'with'} {key[len(PREFIX):]}"
+def changes_of(report, also):
+    """[(title, key, text of the value)] of the runs beside the baseline."""
+    switches = [(f"{'without' if default else 'with'} {key[len(PREFIX):]}", key, str(int(not default)))
+                for key, default in switches_of(report).items()]
+    return switches + [(f"{key.removeprefix(PREFIX)}={value}", key, value) for key, value in also]
 
 
 class Ablation:
@@ -78,17 +82,17 @@ class Ablation:
             return None
         return report
 
-    def run_all(self):
-        """The baseline, then one run a switch."""
+    def run_all(self, also):
+        """The baseline, then one run a switch, then one for each (key, value) of also."""
         report = self.run(BASELINE)
         if report is None:
             return
         with open(os.path.join(self.folder_of(BASELINE), "settings.yaml"), encoding="utf-8") as file:
             settings = file.read()
-        for key, default in switches_of(report).items():
-            path = os.path.join(self.folder, "settings.yaml")
-            command_line.write_lines(path, [with_value(settings, key, not default).rstrip("\n")])
-            self.run(row_title(key, default), path)
+        path = os.path.join(self.folder, "settings.yaml")
+        for title, key, value in changes_of(report, also):
+            command_line.write_lines(path, [with_value(settings, key, value).rstrip("\n")])
+            self.run(title, path)
 
 
 def tables(results):
@@ -104,6 +108,14 @@ def tables(results):
     return lines[:-1]
 
 
+def assignment(text):
+    """(key, value) of KEY=VALUE, as an argument type."""
+    key, equals, value = text.partition("=")
+    if not (key and equals and value):
+        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE")
+    return key, value
+
+
 def parse_arguments():
     parser = command_line.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sequences", nargs="+", metavar="SEQUENCE",
@@ -111,6 +123,8 @@ def parse_arguments():
                              "[_FRAMES] (default: synthetic_walking_xyz, composites, static rooms)")
     parser.add_argument("--frames", type=command_line.count, default=0, metavar="N",
                         help="track the first N frames only (default: all)")
+    parser.add_argument("--also", nargs="+", type=assignment, default=[], metavar="KEY=VALUE",
+                        help="more rows: another value of a setting, such as DynamicDetector.mode=paper")
     parser.add_argument("--output-dir", metavar="DIR", default=os.path.join(runs.ROOT, "results", "ablation"),
                         help="where sequences and runs go (default: results/ablation)")
     runs.add_options(parser)
@@ -131,7 +145,7 @@ def main():
             failures.append(f"{sequence.name}: {error}")
             continue
         ablation = Ablation(sequence, os.path.join(args.output_dir, sequence.name), programs, args.frames)
-        ablation.run_all()
+        ablation.run_all(args.also)
         results[sequence.name] = ablation.runs
         failures += ablation.failures
     command_line.publish({"results": results, "failures": failures}, tables(results), args.json)

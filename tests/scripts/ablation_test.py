@@ -22,9 +22,9 @@ class SwitchesTest(unittest.TestCase):
 
     def test_one_line_of_the_settings_changes(self):
         text = "%YAML:1.0\n---\nD.a: 1  # use a\nD.ab: 1\n"
-        self.assertEqual(with_value(text, "D.a", False), "%YAML:1.0\n---\nD.a: 0\nD.ab: 1\n")
+        self.assertEqual(with_value(text, "D.a", "0"), "%YAML:1.0\n---\nD.a: 0\nD.ab: 1\n")
         with self.assertRaises(InputError):
-            with_value(text, "D.b", True)
+            with_value(text, "D.b", "1")
 
 
 class AblationTest(StubbedTest):
@@ -32,10 +32,12 @@ class AblationTest(StubbedTest):
 
     def test_each_switch_has_its_row_and_each_sequence_its_column(self):
         static = "synthetic_static_xyz_40"
-        result = self.call("--sequences", NAME, static)
+        result = self.call("--sequences", NAME, static, "--also", "DynamicDetector.minPoints=7")
         self.assertEqual(result.returncode, 0, result.stderr)
         ate, recall = (self.table_cells(result.stdout, title) for title in ("ATE RMSE [m]", "Recall [%]"))
-        self.assertEqual(list(ate), ["default settings", "without enabled", "without freeSpace"])
+        self.assertEqual(list(ate),
+                         ["default settings", "without enabled", "without freeSpace", "minPoints=7"])
+        self.assertEqual(ate["minPoints=7"], ate["default settings"])
         ratio = float(ate["without freeSpace"][0]) / float(ate["default settings"][0])
         self.assertAlmostEqual(ratio, 10, delta=0.2)
         self.assertEqual(recall["default settings"], ["100.00", "n/a"])
@@ -62,6 +64,10 @@ class AblationTest(StubbedTest):
     def test_bad_input_is_refused_in_one_line(self):
         self.assert_refused(self.call("--sequences", self.path("no")), self.path("no"))
         self.assert_refused(self.call("--sequences", NAME, "--frames", "few"), "few")
+        self.assert_refused(self.call("--also", "mode"), "KEY=VALUE")
+        result = self.call("--sequences", NAME, "--also", "mode=x")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("ablation.py: error: rgbd_tum knows no setting mode", result.stderr)
 
 
 if __name__ == "__main__":

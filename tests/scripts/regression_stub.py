@@ -10,14 +10,21 @@ import argparse
 import json
 import os
 import pathlib
+import random
 import shutil
 import sys
 
-import numpy as np
-from PIL import Image
-
 SETTINGS = {"Camera.fps": 30.0, "DynamicDetector.enabled": True, "DynamicDetector.freeSpace": True,
             "DynamicDetector.minPoints": 1, "Tracking.other": True}
+
+
+def save_masks(folder, has_figure):
+    from PIL import Image
+    image = Image.new("L", (32, 24))
+    image.save(folder / "black.png")
+    if has_figure:
+        image.paste(255, (5, 5, 10, 10))
+    image.save(folder / "mask.png")
 
 
 def make_sequence():
@@ -31,14 +38,12 @@ def make_sequence():
     folder = pathlib.Path(args.out)
     for part in ("rgb", "mask", "mask_moving"):
         (folder / part).mkdir()
-    mask = np.zeros((24, 32), np.uint8)
-    Image.fromarray(mask).save(folder / "black.png")
-    mask[5:10, 5:10] = 255 if args.script != "static" else 0
-    Image.fromarray(mask).save(folder / "mask.png")
-    random = np.random.default_rng(int(args.seed))
-    positions = np.cumsum(random.normal(scale=0.02, size=(int(args.frames), 3)), axis=0)
+    save_masks(folder, args.script != "static")
+    walk = random.Random(int(args.seed))
+    position = [0.0, 0.0, 0.0]
     truth, rgb = "", ""
-    for i, position in enumerate(positions):
+    for i in range(int(args.frames)):
+        position = [x + walk.gauss(0, 0.02) for x in position]
         stamp = f"{i / 30:.6f}"
         rgb += f"{stamp} rgb/{stamp}.png\n"
         truth += f"{stamp} " + " ".join(f"{x:.6f}" for x in position) + " 0 0 0 1\n"
@@ -70,10 +75,10 @@ def rgbd_tum():
     output, sequence = pathlib.Path(args.output_dir), pathlib.Path(args.sequence)
     truth = (sequence / "groundtruth.txt").read_text().splitlines()
     rows = [line.split() for line in truth[:args.max_frames]]
-    noise = error_m(settings, args.no_detector) * np.random.default_rng(1).normal(size=(len(rows), 3))
-    (output / "CameraTrajectory.txt").write_text("".join(
-        " ".join([row[0], *(f"{float(x) + e:.6f}" for x, e in zip(row[1:4], error)), *row[4:]]) + "\n"
-        for row, error in zip(rows, noise)))
+    noise, sigma_m = random.Random(1), error_m(settings, args.no_detector)
+    estimate = [[row[0], *(f"{float(x) + noise.gauss(0, sigma_m):.6f}" for x in row[1:4]), *row[4:]]
+                for row in rows]
+    (output / "CameraTrajectory.txt").write_text("".join(" ".join(row) + "\n" for row in estimate))
     values = {key: f"{key}: {int(value)}\n" for key, value in SETTINGS.items()}
     (output / "settings.yaml").write_text("%YAML:1.0\n---\n" + "".join(values.values()))
     per_frame = {"detector_latency_s": [0.01] * len(rows), "masked_share": [0.25] * len(rows),
