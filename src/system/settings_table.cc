@@ -36,6 +36,11 @@ Rows CameraRows(PinholeCamera* camera, double* fps) {
       {"Camera.p1", &p1, kOptional, kDistortion, "tangential distortion"},
       {"Camera.p2", &p2, kOptional, kDistortion},
       {"Camera.k3", &k3, kOptional, kDistortion, "radial distortion"},
+      {"Camera.readout",
+       &camera->readout_s,
+       kOptional,
+       {0, 1},
+       "s, rolling shutter: first row to last; 0: none"},
       {"Camera.fps", fps, kOptional, {0, 1000, true}, "frames a second"},
   };
 }

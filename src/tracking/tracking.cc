@@ -5,6 +5,8 @@
 #include <string>
 
 #include "orbslam/tracking/keyframe_creator.h"
+#include "orbslam/tracking/pose_refinement.h"
+#include "orbslam/tracking/rolling_shutter.h"
 #include "orbslam/util/resource_usage.h"
 
 namespace orbslam {
@@ -86,6 +88,8 @@ void Tracking::Initialize(Frame* frame, FrameReport* report) {
 }
 
 void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report) {
+  const std::shared_ptr<const FrameFeatures> rolled = frame->features;
+  frame->features = UndoRollingShutter(rolled, sensor_, motion_);
   bool is_found = Locate(frame, report);
   if (map_->Read()->epoch() != epoch_) {  // the map moved under us: what was found mixes old and new
     std::ranges::fill(frame->points, MapPointId());
@@ -95,13 +99,26 @@ void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report
   state_ = is_found ? TrackingState::kOk : TrackingState::kLost;
   motion_.Forget();
   if (!is_found) return;
-  if (was_tracking) {
-    motion_.Update(last_->timestamp_s, last_->camera_from_world, frame->timestamp_s,
-                   frame->camera_from_world);
-  }
+  if (was_tracking) UpdateMotion(rolled, frame, report);
   if (!makes_keyframes_) return;
   EraseCondemnedPoints();
   if (!is_mask_unused_ && WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
+}
+
+/// With a rolling shutter the motion also says better than the prediction did where the keypoints belong, and
+/// these where the camera is.
+void Tracking::UpdateMotion(const std::shared_ptr<const FrameFeatures>& rolled, Frame* frame,
+                            FrameReport* report) {
+  const auto update = [&] {
+    motion_.Update(last_->timestamp_s, last_->camera_from_world, frame->timestamp_s,
+                   frame->camera_from_world);
+  };
+  update();
+  if (sensor_.camera.readout_s == 0) return;
+  const auto measure = timer_.Measure("rolling_shutter");
+  frame->features = UndoRollingShutter(rolled, sensor_, motion_);
+  report->num_matches = RefinePose(*map_, sensor_, frame);
+  update();
 }
 
 bool Tracking::Locate(Frame* frame, FrameReport* report) {

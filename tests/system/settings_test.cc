@@ -116,8 +116,9 @@ TEST(Settings, EffectiveSettingsReadBackEqual) {
 }
 
 TEST(Settings, WhatMayBeLeftOutIsAndTheRestIsNot) {
-  for (const char* key : {"Camera.width: 640", "Camera.height: 480", "Camera.k1: 0.262383",
-                          "Camera.k3: 1.163314", "Camera.fps: 30.0", "Camera.RGB: 1"}) {
+  for (const char* key :
+       {"Camera.width: 640", "Camera.height: 480", "Camera.k1: 0.262383", "Camera.k3: 1.163314",
+        "Camera.readout: 0.02611", "Camera.fps: 30.0", "Camera.RGB: 1"}) {
     EXPECT_EQ(ErrorAfter(key, ""), "");
   }
   for (const std::string key : {"Camera.fx", "Camera.fy", "Camera.cx", "Camera.cy", "Camera.bf", "ThDepth",

@@ -16,6 +16,7 @@ struct PinholeCamera {
   int width = 0, height = 0;              // px
   double fx = 0, fy = 0, cx = 0, cy = 0;  // px
   std::array<double, 5> distortion{};     // k1 k2 p1 p2 k3
+  double readout_s = 0;  // of a rolling shutter, from the first row to the last; 0: all rows at once
 
   bool IsDistorted() const;
 

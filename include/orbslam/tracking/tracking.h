@@ -43,6 +43,7 @@ class Tracking {
   DynamicMask AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame);
   void Initialize(Frame* frame, FrameReport* report);
   void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
+  void UpdateMotion(const std::shared_ptr<const FrameFeatures>& rolled, Frame* frame, FrameReport* report);
   bool Locate(Frame* frame, FrameReport* report);
   bool FindFirstPose(Frame* frame);
   bool TakeBetterPose(Frame* frame);
