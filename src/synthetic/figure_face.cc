@@ -20,8 +20,12 @@ void Spot(double x, double y, double half_width, double half_height, const cv::S
 /// Adds a soft shade (grey levels) about a place.
 void Shade(double x, double y, double half_width, double half_height, const cv::Scalar& levels,
            cv::Mat* face) {
-  for (int row = 0; row < face->rows; ++row) {
-    for (int col = 0; col < face->cols; ++col) {
+  constexpr double kReach = 2.7;  // half-widths; beyond it the shade is below a grey level
+  const cv::Rect near(cv::Point2d(x - kReach * half_width, y - kReach * half_height),
+                      cv::Point2d(x + kReach * half_width, y + kReach * half_height));
+  const cv::Rect area = near & cv::Rect({}, face->size());
+  for (int row = area.y; row < area.br().y; ++row) {
+    for (int col = area.x; col < area.br().x; ++col) {
       const double dx = (col - x) / half_width, dy = (row - y) / half_height;
       const double weight = std::exp(-dx * dx - dy * dy);
       auto& pixel = face->at<cv::Vec3b>(row, col);

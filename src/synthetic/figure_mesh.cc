@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <unordered_map>
 
 #include "orbslam/util/check.h"
 
@@ -18,11 +18,16 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// Normals from the faces, weighted by area; vertices at one place share theirs, so that seams do not show.
 void SmoothNormals(Mesh* mesh) {
-  std::map<std::array<int64_t, 3>, Eigen::Vector3f> sums;
-  const auto key = [](const Eigen::Vector3f& p) {
+  struct Hash {
+    size_t operator()(const Eigen::Vector3i& p) const {
+      return static_cast<size_t>(p.x()) * 73856093u ^ static_cast<size_t>(p.y()) * 19349663u ^
+             static_cast<size_t>(p.z()) * 83492791u;
+    }
+  };
+  std::unordered_map<Eigen::Vector3i, Eigen::Vector3f, Hash> sums;
+  const auto key = [](const Eigen::Vector3f& p) -> Eigen::Vector3i {
     constexpr float kPerMetre = 1e5f;
-    return std::array<int64_t, 3>{std::llround(p.x() * kPerMetre), std::llround(p.y() * kPerMetre),
-                                  std::llround(p.z() * kPerMetre)};
+    return (kPerMetre * p).array().round().cast<int>();
   };
   auto& vertices = mesh->vertices;
   for (size_t i = 0; i + 2 < mesh->indices.size(); i += 3) {
@@ -30,7 +35,8 @@ void SmoothNormals(Mesh* mesh) {
     const auto& b = vertices[mesh->indices[i + 1]].position;
     const auto& c = vertices[mesh->indices[i + 2]].position;
     const Eigen::Vector3f normal = (b - a).cross(c - a);
-    for (const auto* corner : {&a, &b, &c}) sums.try_emplace(key(*corner), 0, 0, 0).first->second += normal;
+    for (const auto* corner : {&a, &b, &c})
+      sums.try_emplace(key(*corner), 0.0f, 0.0f, 0.0f).first->second += normal;
   }
   for (Vertex& vertex : vertices) {
     const Eigen::Vector3f sum = sums[key(vertex.position)];
@@ -164,7 +170,7 @@ void Transform(const Eigen::Isometry3d& to_from_mesh, Mesh* mesh) {
   const Eigen::Isometry3f to = to_from_mesh.cast<float>();
   for (Vertex& vertex : mesh->vertices) {
     vertex.position = to * vertex.position;
-    vertex.normal = to.linear() * vertex.normal;
+    vertex.normal = (to.linear() * vertex.normal).normalized();  // scales are the same along all axes
   }
 }
 

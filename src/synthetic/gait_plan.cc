@@ -190,7 +190,7 @@ FootState GaitPlan::FootAt(int foot, double time_s) const {
 }
 
 GaitState GaitPlan::At(double time_s) const {
-  time_s += first_s_;
+  time_s = std::max(0.0, time_s + first_s_);
   if (loops_) time_s -= end_s_ * std::floor(time_s / end_s_);
   GaitState state;
   state.body = start_;

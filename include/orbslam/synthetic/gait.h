@@ -77,7 +77,8 @@ class GaitPlan {
   double duration_s() const { return end_s_; }
   const Placement& end() const { return end_; }
   const FootShape& shape() const { return shape_; }
-  /// Before 0 and after the last move (without Loop): stands as at the first and the last moment.
+  /// Before the plan's start and after the last move (without Loop): stands as at the first and the last
+  /// moment.
   GaitState At(double time_s) const;
 
  private:
