@@ -33,6 +33,10 @@ void AddArguments(CLI::App* app, orbslam::DatasetJob* job, std::string* log_leve
   app->add_flag("--realtime", job->run.realtime, "pace by time stamps; default: as fast as possible");
   app->add_flag_callback(
       "--no-detector", [job] { job->use_detector = false; }, "do not look for moving objects");
+  app->add_option("--mask-dir", job->mask_folder,
+                  "ready-made masks, PNGs with the colour images' names, non-zero: may move; united with the "
+                  "detector's");
+  app->add_option("--save-masks", job->save_masks_folder, "write the masks that were used into this folder");
   app->add_option("--max-frames", job->run.max_frames, "stop after so many; 0: all")
       ->check(CLI::Range(0, std::numeric_limits<int>::max(), "COUNT"))
       ->capture_default_str();

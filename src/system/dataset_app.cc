@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "orbslam/system/mask_files.h"
 #include "orbslam/system/run_report.h"
 #include "orbslam/util/file.h"
 #include "orbslam/util/text.h"
@@ -56,6 +57,44 @@ Result<std::shared_ptr<const Vocabulary>> OpenVocabulary(const std::string& path
   return std::make_shared<const Vocabulary>(*std::move(vocabulary));
 }
 
+/// What a run reads before it begins.
+struct Inputs {
+  Settings settings;
+  TumSequence sequence;
+  std::shared_ptr<const Vocabulary> vocabulary;
+  UserMask masks;  // no function if no folder is named
+  std::vector<std::string> warnings;
+};
+
+/// Warnings are logged as soon as they are known: they may explain the error that follows.
+void Warn(const std::vector<std::string>& warnings, Inputs* inputs) {
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  inputs->warnings.insert(inputs->warnings.end(), warnings.begin(), warnings.end());
+}
+
+Result<Inputs> OpenInputs(const DatasetJob& job) {
+  Inputs inputs;
+  std::vector<std::string> warnings;
+  Result<Settings> settings = ReadSettings(job.settings_path, &warnings);
+  if (!settings) return settings.error();
+  inputs.settings = *std::move(settings);
+  Warn(warnings, &inputs);
+  const Status folder = CheckSequenceFolder(job.sequence_folder);
+  if (!folder) return folder.error();
+  Result<TumSequence> sequence = ReadTumSequence(job.sequence_folder, job.associations_path);
+  if (!sequence) return sequence.error();
+  inputs.sequence = *std::move(sequence);
+  Warn(inputs.sequence.warnings, &inputs);
+  auto vocabulary = OpenVocabulary(job.vocabulary_path);
+  if (!vocabulary) return vocabulary.error();
+  inputs.vocabulary = *std::move(vocabulary);
+  if (job.mask_folder.empty()) return inputs;
+  Result<UserMask> masks = MasksFromFolder(job.mask_folder, inputs.sequence, inputs.settings.camera);
+  if (!masks) return masks.error();
+  inputs.masks = *std::move(masks);
+  return inputs;
+}
+
 /// Writes all that there is, even if one file fails.
 bool WriteResults(const DatasetJob& job, const std::string& report, const System& system) {
   const std::string folder = job.output_folder + "/";
@@ -91,27 +130,30 @@ void PrintSummary(const DatasetJob& job, const RunSummary& summary, const System
 const char* Version() { return kVersion; }
 
 int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
-  std::vector<std::string> warnings;
-  const Result<Settings> settings = ReadSettings(job.settings_path, &warnings);
-  if (!settings) return Succeeded(settings.error()), kExitError;
-  if (!Succeeded(CheckSequenceFolder(job.sequence_folder))) return kExitError;
-  const Result<TumSequence> sequence = ReadTumSequence(job.sequence_folder, job.associations_path);
-  if (!sequence) return Succeeded(sequence.error()), kExitError;
-  warnings.insert(warnings.end(), sequence->warnings.begin(), sequence->warnings.end());
-  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-  const auto vocabulary = OpenVocabulary(job.vocabulary_path);
-  if (!vocabulary) return Succeeded(vocabulary.error()), kExitError;
-  if (!Succeeded(PrepareOutputFolder(job.output_folder, *settings))) return kExitError;
+  const Result<Inputs> inputs = OpenInputs(job);
+  if (!inputs) return Succeeded(inputs.error()), kExitError;
+  const Settings& settings = inputs->settings;
+  if (!Succeeded(PrepareOutputFolder(job.output_folder, settings))) return kExitError;
+  Result<MaskWriter> opened = MaskWriter::Open(job.save_masks_folder, settings.camera);
+  if (!opened) return Succeeded(opened.error()), kExitError;
+  MaskWriter mask_writer = *std::move(opened);
 
-  System system(*settings, {.mode = {.is_sequential = job.sequential, .is_live = job.run.realtime},
-                            .vocabulary = *vocabulary});
+  System system(settings, {.mode = {.is_sequential = job.sequential, .is_live = job.run.realtime},
+                           .vocabulary = inputs->vocabulary,
+                           .use_detector = job.use_detector,
+                           .user_mask = inputs->masks});
   if (!job.load_map_path.empty() && !Succeeded(system.LoadMap(job.load_map_path))) return kExitError;
   if (job.localize_only) system.ActivateLocalizationMode();
-  const RunSummary summary = RunSequence(*sequence, *settings, job.run, is_interrupted, &system);
+  const FrameObserver write_mask = [&](const RgbdEntry& entry, const FrameReport& report) {
+    mask_writer.Write(entry, report.moving.mask);
+  };
+  const RunSummary summary =
+      RunSequence(inputs->sequence, settings, job.run, is_interrupted, write_mask, &system);
   system.Shutdown();
 
-  const bool is_written =
-      WriteResults(job, FormatRunReport(job.command_line, *settings, warnings, summary, system), system);
+  const std::string report = FormatRunReport(job.command_line, settings, inputs->warnings, summary, system);
+  const bool are_results_written = WriteResults(job, report, system);
+  const bool are_masks_written = Succeeded(mask_writer.status());
   if (job.run.progress != Progress::Mode::kQuiet) PrintSummary(job, summary, system);
   if (const auto failure = system.failure()) {
     spdlog::error("internal error, results are incomplete: {}", failure->message);
@@ -122,7 +164,7 @@ int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
     spdlog::error("{}: {}", job.sequence_folder, reason);
     return kExitError;
   }
-  return is_written ? kExitOk : kExitError;
+  return are_results_written && are_masks_written ? kExitOk : kExitError;
 }
 
 }  // namespace orbslam

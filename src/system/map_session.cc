@@ -7,10 +7,6 @@ namespace {
 constexpr size_t kMaxWaitingKeyFrames = 3;
 constexpr size_t kMaxWaitingLoops = 64;
 
-StageMode ModeOfStages(const RunMode& mode) {
-  return mode.is_sequential ? StageMode::kInline : StageMode::kThreaded;
-}
-
 }  // namespace
 
 MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode mode,
@@ -23,10 +19,10 @@ MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode m
       mapping_(sensor, settings.mapping, &map_),
       loop_stage_(
           "loop_closing", kMaxWaitingLoops,
-          [this](const KeyFrameMapped& message) { loop_closing_->Process(message); }, ModeOfStages(mode)),
+          [this](const KeyFrameMapped& message) { loop_closing_->Process(message); }, mode.OfStages()),
       mapping_stage_(
           "local_mapping", kMaxWaitingKeyFrames,
-          [this](const KeyFrameReady& message) { RunMapping(message); }, ModeOfStages(mode)) {
+          [this](const KeyFrameReady& message) { RunMapping(message); }, mode.OfStages()) {
   if (places_) {
     for (const KeyFrame& keyframe : map_.Read()->KeyFrames()) {
       places_->Add(keyframe.id, places_->Transform(*keyframe.features));
@@ -41,8 +37,8 @@ MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode m
   mapping_stage_.Start();
 }
 
-FrameReport MapSession::Track(const RgbdImage& image) {
-  FrameReport report = tracking_.Process(image, Load());
+FrameReport MapSession::Track(const RgbdImage& image, const MaskOfFrame& mask_of_frame) {
+  FrameReport report = tracking_.Process(image, Load(), mask_of_frame);
   trajectory_.Add(image, report);
   if (report.new_keyframe) HandOver(*report.new_keyframe);
   return report;

@@ -24,11 +24,30 @@ Json TimingsJson(const System& system) {
   return json;
 }
 
+/// In world coordinates if the frame's pose is known, else null there.
+Json ObjectsJson(const FrameReport& frame) {
+  Json json = Json::array();
+  const auto vector_json = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
+  for (const DynamicObject& object : frame.moving.objects) {
+    Json entry = {{"id", object.id}, {"centroid_world_m", nullptr}, {"velocity_world_mps", nullptr}};
+    if (frame.world_from_camera) {
+      entry["centroid_world_m"] = vector_json(*frame.world_from_camera * object.centroid_m);
+      entry["velocity_world_mps"] = vector_json(frame.world_from_camera->rotation * object.velocity_mps);
+    }
+    entry["line_integral_ratio"] = object.line_integral_ratio;
+    entry["log_odds"] = object.log_odds;
+    entry["num_pixels"] = object.num_pixels;
+    json.push_back(entry);
+  }
+  return json;
+}
+
 /// One array a column, one entry a processed frame.
 Json FramesJson(const std::vector<FrameReport>& frames) {
   Json json;
   for (const char* column :
-       {"timestamp_s", "state", "keypoints", "matches", "tracking_s", "tracking_cpu_s"}) {
+       {"timestamp_s", "state", "keypoints", "matches", "tracking_s", "tracking_cpu_s", "masked_share",
+        "keypoints_dropped", "detector_latency_s", "fail_open", "objects"}) {
     json[column] = Json::array();
   }
   for (const FrameReport& frame : frames) {
@@ -38,6 +57,11 @@ Json FramesJson(const std::vector<FrameReport>& frames) {
     json["matches"].push_back(frame.num_matches);
     json["tracking_s"].push_back(frame.tracking_s);
     json["tracking_cpu_s"].push_back(frame.tracking_cpu_s);
+    json["masked_share"].push_back(frame.masked_share);
+    json["keypoints_dropped"].push_back(frame.num_dropped_keypoints);
+    json["detector_latency_s"].push_back(frame.moving.latency_s);
+    json["fail_open"].push_back(frame.moving.fail_open_reason);
+    json["objects"].push_back(ObjectsJson(frame));
   }
   return json;
 }

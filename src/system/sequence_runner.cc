@@ -55,7 +55,8 @@ std::string Detail(const FrameReport& report, const System& system) {
 }  // namespace
 
 RunSummary RunSequence(const TumSequence& sequence, const Settings& settings, const RunOptions& options,
-                       const std::atomic<bool>& is_interrupted, System* system) {
+                       const std::atomic<bool>& is_interrupted, const FrameObserver& on_frame,
+                       System* system) {
   RunSummary summary;
   const int num_entries = static_cast<int>(sequence.entries.size());
   summary.frames_listed = options.max_frames > 0 ? std::min(options.max_frames, num_entries) : num_entries;
@@ -72,15 +73,17 @@ RunSummary RunSequence(const TumSequence& sequence, const Settings& settings, co
     }
     if (options.realtime) pacer.WaitFor(entry.timestamp_s, is_interrupted);
     if (summary.frames_processed == 0) summary.startup_s = SecondsSinceProcessStart();
-    const FrameReport report = system->TrackRgbd({.id = {},
-                                                  .timestamp_s = entry.timestamp_s,
-                                                  .timestamp_text = entry.timestamp_text,
-                                                  .gray = images->gray,
-                                                  .depth_m = images->depth_m});
+    FrameReport report = system->TrackRgbd({.id = {},
+                                            .timestamp_s = entry.timestamp_s,
+                                            .timestamp_text = entry.timestamp_text,
+                                            .gray = images->gray,
+                                            .depth_m = images->depth_m});
     ++summary.frames_processed;
     summary.frames_lost += !report.world_from_camera.has_value();
-    summary.frames.push_back(report);
     if (progress.IsDue(i + 1)) progress.Update(i + 1, Detail(report, *system));
+    if (on_frame) on_frame(entry, report);
+    report.moving.mask.release();
+    summary.frames.push_back(std::move(report));
   }
   summary.was_interrupted = is_interrupted;
   summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();

@@ -116,6 +116,12 @@ Rows LoopRows(bool* closes_loops, LoopOptions* loops) {
   };
 }
 
+Rows DetectorRows(bool* detects_motion) {
+  return {
+      {"DynamicDetector.enabled", detects_motion, kOptional, {}, "look for moving objects"},
+  };
+}
+
 }  // namespace
 
 std::vector<ConfigRow> DescribeSettings(Settings* settings) {
@@ -127,6 +133,7 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(TrackingRows(&settings->tracking, &settings->keyframes));
   add(MappingRows(&settings->mapping));
   add(LoopRows(&settings->closes_loops, &settings->loops));
+  add(DetectorRows(&settings->detects_motion));
   return all;
 }
 

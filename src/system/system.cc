@@ -26,7 +26,13 @@ System::System(const Settings& settings, SystemOptions options)
     : settings_(settings),
       options_(std::move(options)),
       sensor_(settings.camera, settings.depth, settings.orb, settings.fps) {
+  StartMasks();
   StartSession(MapData(sensor_.pyramid));
+}
+
+void System::StartMasks() {
+  masks_ =
+      std::make_unique<MaskSupplier>(settings_, options_.use_detector, options_.mode, options_.user_mask);
 }
 
 System::~System() { Shutdown(); }
@@ -43,7 +49,13 @@ FrameReport System::TrackRgbd(RgbdImage image) {
   ORBSLAM_CHECK(image.gray.type() == CV_8UC1 && image.gray.size() == size);
   ORBSLAM_CHECK(image.depth_m.type() == CV_32FC1 && image.depth_m.size() == size);
   image.id = FrameId(num_frames_++);
-  const FrameReport report = sessions_.back()->Track(image);
+  const auto shared = std::make_shared<const RgbdImage>(std::move(image));
+  MaskOfFrame mask_of_frame;
+  if (masks_->HasSource()) {
+    masks_->Begin(shared);
+    mask_of_frame = [this](const Rigid3d& now_from_last) { return masks_->Take(now_from_last); };
+  }
+  const FrameReport report = sessions_.back()->Track(*shared, mask_of_frame);
   StartNewMapIfLost(report);
   return report;
 }
@@ -61,11 +73,15 @@ void System::StartNewMapIfLost(const FrameReport& report) {
   StartSession(MapData(sensor_.pyramid));
 }
 
-void System::Shutdown() { sessions_.back()->Stop(); }
+void System::Shutdown() {
+  masks_->Stop();
+  sessions_.back()->Stop();
+}
 
 void System::Reset() {
   sessions_.clear();
   num_frames_ = 0;
+  StartMasks();
   StartSession(MapData(sensor_.pyramid));
 }
 
@@ -139,6 +155,15 @@ System::Counts System::counts() const {
   return counts;
 }
 
-std::optional<Error> System::failure() const { return sessions_.back()->failure(); }
+std::map<std::string, StageTimer::Statistics> System::Timings() const {
+  auto timings = sessions_.back()->Timings();
+  timings.merge(masks_->Timings());
+  return timings;
+}
+
+std::optional<Error> System::failure() const {
+  if (auto failure = masks_->failure()) return failure;
+  return sessions_.back()->failure();
+}
 
 }  // namespace orbslam

@@ -64,6 +64,7 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
     report->moving.mask = cv::Mat();
     features = features_off(cv::Mat());
   }
+  report->masked_share = report->moving.MaskedShare();
   moving_ = MovingRegion(sensor_, report->moving.mask, image.depth_m);
   report->num_dropped_keypoints = static_cast<int>(raw.keypoints.size()) - features.size();
   std::vector<MapPointId> points(features.size());

@@ -93,7 +93,7 @@ class Outputs(RgbdTumTest):
         result = self.finish([RGBD_TUM, "--help"])
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         for word in ("VOCABULARY SETTINGS SEQUENCE", "--output-dir", "--sequential", "--realtime",
-                     "--no-detector ", "--max-frames", "--log-level", "--quiet", "--version"):
+                     "--no-detector ", "--mask-dir", "--save-masks", "--max-frames", "--log-level", "--quiet", "--version"):
             self.assertIn(word, result.stdout)
         self.assertRegex(self.finish([RGBD_TUM, "--version"]).stdout, r"^rgbd_tum \d+\.\d+\.\d+\n$")
 

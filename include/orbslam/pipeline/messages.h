@@ -67,6 +67,7 @@ struct FrameReport {
   int num_keypoints = 0;          // those on moving objects left out
   int num_matches = 0;            // inliers among the map points it sees
   DynamicMask moving;             // the mask that was used; its fail_open_reason also says why one was not
+  double masked_share = 0;        // of the image, in [0, 1]
   int num_dropped_keypoints = 0;  // those on moving objects
   std::optional<KeyFrameReady> new_keyframe;
 };

@@ -18,6 +18,8 @@ struct DatasetJob {
   std::string output_folder = ".";
   std::string load_map_path;  // empty: none; as next
   std::string save_map_path;
+  std::string mask_folder;  // ready-made masks
+  std::string save_masks_folder;
   bool localize_only = false;
   bool sequential = false;
   bool use_detector = true;

@@ -9,18 +9,13 @@
 #include "orbslam/loop/loop_closing.h"
 #include "orbslam/mapping/local_mapping.h"
 #include "orbslam/pipeline/edit_turn.h"
+#include "orbslam/system/run_mode.h"
 #include "orbslam/system/settings.h"
 #include "orbslam/system/trajectory_log.h"
 #include "orbslam/tracking/tracking.h"
 #include "orbslam/util/stage.h"
 
 namespace orbslam {
-
-/// How the stages of a system are run.
-struct RunMode {
-  bool is_sequential = false;  // all on the caller's thread, exactly repeatable
-  bool is_live = false;        // never wait for the mapper: skip keyframes while it is busy
-};
 
 /// One map and everything that works on it: Tracking on the caller's thread, LocalMapping and LoopClosing as
 /// stages behind it, global bundle adjustment beside them.
@@ -30,7 +25,7 @@ class MapSession {
   MapSession(const Sensor& sensor, const Settings& settings, RunMode mode,
              std::shared_ptr<const Vocabulary> vocabulary, MapData map);
 
-  FrameReport Track(const RgbdImage& image);
+  FrameReport Track(const RgbdImage& image, const MaskOfFrame& mask_of_frame);
 
   /// Waits until all that was handed over is worked into the map, a global bundle adjustment included.
   void WaitUntilIdle();

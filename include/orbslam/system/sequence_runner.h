@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <vector>
 
 #include "orbslam/io/tum_sequence.h"
@@ -24,12 +25,16 @@ struct RunSummary {
   bool was_interrupted = false;
   double startup_s = 0;  // from exec to the first frame's being handed over
   double wall_s = 0;
-  std::vector<FrameReport> frames;  // one a processed frame
+  std::vector<FrameReport> frames;  // one a processed frame, without its mask
 };
+
+/// Called for each processed frame; may be empty.
+using FrameObserver = std::function<void(const RgbdEntry&, const FrameReport&)>;
 
 /// Runs a sequence through the system. Frames that cannot be read are skipped, counted and warned of. Ends
 /// early, with everything so far in place, when is_interrupted becomes true.
 RunSummary RunSequence(const TumSequence& sequence, const Settings& settings, const RunOptions& options,
-                       const std::atomic<bool>& is_interrupted, System* system);
+                       const std::atomic<bool>& is_interrupted, const FrameObserver& on_frame,
+                       System* system);
 
 }  // namespace orbslam

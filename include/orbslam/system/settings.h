@@ -7,6 +7,7 @@
 
 #include "orbslam/camera/depth_model.h"
 #include "orbslam/camera/pinhole_camera.h"
+#include "orbslam/dynamic/dynamic_detector_options.h"
 #include "orbslam/features/orb_extractor.h"
 #include "orbslam/loop/loop_options.h"
 #include "orbslam/mapping/mapping_options.h"
@@ -27,6 +28,8 @@ struct Settings {
   MappingOptions mapping;
   bool closes_loops = true;
   LoopOptions loops;
+  bool detects_motion = true;
+  DynamicDetectorOptions detector;
 
   Settings() { camera.width = 640, camera.height = 480; }
 };

@@ -10,6 +10,7 @@
 #include "orbslam/pipeline/messages.h"
 #include "orbslam/pipeline/sensor.h"
 #include "orbslam/system/map_session.h"
+#include "orbslam/system/mask_supplier.h"
 #include "orbslam/system/settings.h"
 #include "orbslam/util/result.h"
 #include "orbslam/util/stage_timer.h"
@@ -22,6 +23,8 @@ struct SystemOptions {
   std::shared_ptr<const Vocabulary> vocabulary;  // nullptr: loops are not closed, relocalisation is slower
   double max_lost_s = 2.0;      // a young map in which the camera was lost for so long is left for a new one
   int young_map_keyframes = 5;  // at most so many
+  bool use_detector = true;     // look for moving objects, unless the settings say not to
+  UserMask user_mask;           // masks of the user's own, united with the detector's
 };
 
 /// The whole SLAM system: give it RGB-D frames in order of time, get camera poses, save trajectories.
@@ -32,7 +35,8 @@ struct SystemOptions {
 ///   slam.SaveTrajectory("CameraTrajectory.txt");
 ///
 /// World frame: that of the first tracked camera of a map. To be used from one thread; LocalMapping,
-/// LoopClosing and global bundle adjustment run on threads of its own. The destructor joins them.
+/// LoopClosing, global bundle adjustment and the DynamicDetector run on threads of its own. The destructor
+/// joins them.
 class System {
  public:
   explicit System(const Settings& settings, SystemOptions options = {});
@@ -76,11 +80,12 @@ class System {
   /// The present map. Look at it through its guards at any time.
   const Map& map() const { return sessions_.back()->map(); }
   /// Durations of all stages' steps. To be called after Shutdown.
-  std::map<std::string, StageTimer::Statistics> Timings() const { return sessions_.back()->Timings(); }
+  std::map<std::string, StageTimer::Statistics> Timings() const;
   /// What an internal thread died of, if one did.
   std::optional<Error> failure() const;
 
  private:
+  void StartMasks();
   void StartSession(MapData map);
   void StartNewMapIfLost(const FrameReport& report);
   std::vector<const MapSession*> SessionsLargestFirst() const;
@@ -91,6 +96,7 @@ class System {
   const Settings settings_;
   const SystemOptions options_;
   const Sensor sensor_;
+  std::unique_ptr<MaskSupplier> masks_;
   std::vector<std::unique_ptr<MapSession>> sessions_;  // the present one last
   uint32_t num_frames_ = 0;
   std::optional<double> last_tracked_s_;  // or first given a frame, in the present map
