@@ -2,8 +2,11 @@
 #include "orbslam/dynamic/line_integral.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "orbslam/util/check.h"
@@ -47,6 +50,19 @@ struct RowReader {
   float operator[](int i) const { return low[i] + fraction * (low[i + 1] - low[i]); }
 };
 
+/// Takes each bin's median over the rows away.
+Matrix WithoutMedians(const Matrix& rows) {
+  Matrix residual = rows;
+  std::vector<float> column(static_cast<size_t>(rows.rows()));
+  for (Eigen::Index bin = 0; bin < rows.cols(); ++bin) {
+    for (Eigen::Index row = 0; row < rows.rows(); ++row) column[row] = rows(row, bin);
+    const auto middle = column.begin() + static_cast<std::ptrdiff_t>(column.size() / 2);
+    std::nth_element(column.begin(), middle, column.end());
+    residual.col(bin).array() -= *middle;
+  }
+  return residual;
+}
+
 /// Binomial average of each bin and its neighbours; the outermost bins are zero and stay so. Reading between
 /// bins then smooths noise hardly more than reading on them, so that no slope is favoured for falling
 /// between.
@@ -58,70 +74,86 @@ Matrix Smoothed(const Matrix& rows) {
   return smoothed;
 }
 
-/// Sums, over the bins of the extent, of the second-lowest weight that a velocity meets in the rows.
-class PersistentSums {
+int Margin(const MotionHistogram& histogram) {
+  return static_cast<int>(std::ceil(histogram.max_speed_mps * histogram.DurationS() / histogram.bin_m)) + 2;
+}
+
+/// Follows the bins of an extent along lines, and sums over them the value of the given rank (0: the lowest)
+/// among those that each meets in the rows.
+template <int kRank>
+class ExtentLines {
  public:
-  PersistentSums(const MotionHistogram& histogram, const ClusterExtent& extent)
-      : histogram_(histogram), margin_(Margin(histogram)) {
+  /// `padded`: the histogram's rows, or what is made of them, with its Margin to either side.
+  ExtentLines(const MotionHistogram& histogram, Matrix padded, const ClusterExtent& extent)
+      : histogram_(histogram), padded_(std::move(padded)) {
     const auto last = static_cast<int>(histogram.weights.cols()) - 1;
     const auto bin_at = [&](float position_m) {
-      return std::clamp(static_cast<int>(std::lround((position_m - histogram.first_m) / histogram.bin_m)), 0,
-                        last);
+      const auto bin = static_cast<int>(std::lround((position_m - histogram.first_m) / histogram.bin_m));
+      return std::clamp(bin, 0, last);
     };
-    first_bin_ = bin_at(extent.low_m);
-    const auto count = static_cast<size_t>(bin_at(extent.high_m) - first_bin_ + 1);
-    padded_ = Smoothed(Padded(histogram.weights, margin_));
-    lowest_.resize(count);
-    second_.resize(count);
+    first_column_ = Margin(histogram) + bin_at(extent.low_m);
+    for (auto& values : lowest_)
+      values.resize(static_cast<size_t>(bin_at(extent.high_m) - bin_at(extent.low_m) + 1));
   }
 
-  /// What persists at a velocity, of what the extent holds in the current row.
+  /// Back from where the extent is in the newest row, at a velocity.
   double Along(double velocity_mps) { return Sum(velocity_mps / histogram_.bin_m, 0); }
-  /// What persists at rest where the extent was in the oldest row at that velocity.
+  /// At rest where the extent would have been in the oldest row at that velocity.
   double AtRest(double velocity_mps) {
     return Sum(0, -velocity_mps * histogram_.DurationS() / histogram_.bin_m);
   }
 
  private:
   double Sum(double bins_per_s, double shift_bins) {
-    std::fill(lowest_.begin(), lowest_.end(), std::numeric_limits<float>::max());
-    std::fill(second_.begin(), second_.end(), std::numeric_limits<float>::max());
+    for (auto& values : lowest_) std::fill(values.begin(), values.end(), std::numeric_limits<float>::max());
     for (Eigen::Index row = 0; row < padded_.rows(); ++row) {
       const double age_s = histogram_.times_s[row] - histogram_.times_s.back();
-      KeepTwoLowest(RowReader(padded_, row, margin_ + first_bin_, shift_bins + bins_per_s * age_s));
+      Insert(RowReader(padded_, row, first_column_, shift_bins + bins_per_s * age_s));
     }
-    float sum = 0;
-    for (const float value : second_) sum += value;
-    return sum;
+    return std::accumulate(lowest_[kRank].begin(), lowest_[kRank].end(), 0.0F);
   }
 
-  static int Margin(const MotionHistogram& histogram) {
-    return static_cast<int>(std::ceil(histogram.max_speed_mps * histogram.DurationS() / histogram.bin_m)) + 2;
-  }
-
-  void KeepTwoLowest(const RowReader& reader) {
-    float* lowest = lowest_.data();
-    float* second = second_.data();
-    const int count = static_cast<int>(lowest_.size());
+  /// One step of an insertion sort that keeps the kRank + 1 lowest, for all bins side by side.
+  void Insert(const RowReader& reader) {
+    const int count = static_cast<int>(lowest_[0].size());
+    std::array<float*, kRank + 1> lowest;
+    for (int rank = 0; rank <= kRank; ++rank) lowest[rank] = lowest_[rank].data();
     for (int i = 0; i < count; ++i) {
-      const float value = reader[i];
-      second[i] = std::min(second[i], std::max(lowest[i], value));
-      lowest[i] = std::min(lowest[i], value);
+      float value = reader[i];
+      for (int rank = 0; rank <= kRank; ++rank) {
+        const float other = lowest[rank][i];
+        lowest[rank][i] = std::min(other, value);
+        value = std::max(other, value);
+      }
     }
   }
 
   const MotionHistogram& histogram_;
-  int margin_;
-  int first_bin_ = 0;
   Matrix padded_;
-  std::vector<float> lowest_;
-  std::vector<float> second_;
+  int first_column_ = 0;
+  std::array<std::vector<float>, kRank + 1> lowest_;
 };
 
 /// Where the parabola through three neighbouring values peaks, in steps from the middle one.
 double ParabolaPeak(double left, double middle, double right) {
   const double curvature = left - 2 * middle + right;
   return curvature < 0 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0.0;
+}
+
+/// The largest of a function of the velocity over all slopes, if it is positive.
+template <class Function>
+LineIntegral Largest(const MotionHistogram& histogram, double cluster_weight, Function&& function) {
+  const Slopes slopes(histogram);
+  std::vector<double> values;
+  for (int slope = -slopes.half_count; slope <= slopes.half_count; ++slope) {
+    values.push_back(function(slope * slopes.step_mps));
+  }
+  const auto peak = std::max_element(values.begin(), values.end());
+  if (!(*peak > 0)) return {};
+  const auto index = static_cast<int>(peak - values.begin());
+  double offset = 0;
+  if (index > 0 && index < 2 * slopes.half_count) offset = ParabolaPeak(peak[-1], peak[0], peak[1]);
+  return {*peak, *peak / cluster_weight, (index - slopes.half_count + offset) * slopes.step_mps};
 }
 
 }  // namespace
@@ -153,21 +185,21 @@ LineIntegral PublishedLineIntegral(const MotionHistogram& histogram, double clus
 LineIntegral PersistentLineIntegral(const MotionHistogram& histogram, const ClusterExtent& extent,
                                     double cluster_weight) {
   ORBSLAM_CHECK(cluster_weight > 0);
-  if (histogram.weights.rows() < 3 || !(histogram.DurationS() > 0)) return {};
-  const Slopes slopes(histogram);
-  PersistentSums sums(histogram, extent);
-  const double rest_here = sums.AtRest(0);
-  std::vector<double> gains;
-  for (int slope = -slopes.half_count; slope <= slopes.half_count; ++slope) {
-    const double velocity_mps = slope * slopes.step_mps;
-    gains.push_back(sums.Along(velocity_mps) - std::max(rest_here, sums.AtRest(velocity_mps)));
-  }
-  const auto peak = std::max_element(gains.begin(), gains.end());
-  if (!(*peak > 0)) return {};
-  const auto index = static_cast<int>(peak - gains.begin());
-  double offset = 0;
-  if (index > 0 && index < 2 * slopes.half_count) offset = ParabolaPeak(peak[-1], peak[0], peak[1]);
-  return {*peak, *peak / cluster_weight, (index - slopes.half_count + offset) * slopes.step_mps};
+  if (histogram.weights.rows() < kMotionHistogramRows || !(histogram.DurationS() > 0)) return {};
+  ExtentLines<3> lines(histogram, Padded(WithoutMedians(histogram.weights), Margin(histogram)), extent);
+  return Largest(histogram, cluster_weight, [&](double velocity_mps) { return lines.Along(velocity_mps); });
+}
+
+LineIntegral GainOverRest(const MotionHistogram& histogram, const ClusterExtent& extent,
+                          double cluster_weight) {
+  ORBSLAM_CHECK(cluster_weight > 0);
+  if (histogram.weights.rows() < kMotionHistogramRows || !(histogram.DurationS() > 0)) return {};
+  ExtentLines<1> lines(histogram, Smoothed(Padded(histogram.weights, Margin(histogram))), extent);
+  const double rest_here = lines.AtRest(0);
+  return Largest(histogram, cluster_weight, [&](double velocity_mps) {
+    const double along = lines.Along(velocity_mps);
+    return along <= rest_here ? along - rest_here : along - std::max(rest_here, lines.AtRest(velocity_mps));
+  });
 }
 
 ClusterMotion FindClusterMotion(std::span<const HistogramRow> rows, std::span<const Eigen::Vector3f> points_m,
@@ -177,10 +209,13 @@ ClusterMotion FindClusterMotion(std::span<const HistogramRow> rows, std::span<co
   const MotionBall ball = BallAroundCluster(points_m);
   for (const Eigen::Vector3f& direction : directions) {
     const SweptVolume volume{ball, direction, max_speed_mps};
-    const LineIntegral line = PersistentLineIntegral(BuildMotionHistogram(rows, volume),
-                                                     ExtentAlong(points_m, volume), cluster_weight);
-    if (line.ratio <= best.ratio) continue;
-    best = {static_cast<float>(line.velocity_mps) * direction, direction, line.ratio};
+    const MotionHistogram histogram = BuildMotionHistogram(rows, volume);
+    const ClusterExtent extent = ExtentAlong(points_m, volume);
+    const LineIntegral line = PersistentLineIntegral(histogram, extent, cluster_weight);
+    const LineIntegral gain = GainOverRest(histogram, extent, cluster_weight);
+    if (std::pair(line.ratio, gain.ratio) <= std::pair(best.ratio, best.gain_ratio)) continue;
+    const double velocity_mps = gain.ratio > 0 ? gain.velocity_mps : line.velocity_mps;
+    best = {static_cast<float>(velocity_mps) * direction, direction, line.ratio, gain.ratio};
   }
   return best;
 }

@@ -87,7 +87,8 @@ struct Judgement {
   std::optional<Eigen::Vector3f> direction;
   LineIntegral published;
   LineIntegral persistent;
-  Eigen::Vector3f VelocityMps() const { return static_cast<float>(persistent.velocity_mps) * *direction; }
+  LineIntegral gain;
+  Eigen::Vector3f VelocityMps() const { return static_cast<float>(gain.velocity_mps) * *direction; }
 };
 
 inline constexpr double kFramePeriodS = 1.0 / 30.0;
@@ -119,6 +120,7 @@ inline Judgement JudgeFirstBox(const SceneAt& scene, uint64_t seed,
   const double weight = SurfaceWeight(cluster);
   judgement.published = PublishedLineIntegral(histogram, weight);
   judgement.persistent = PersistentLineIntegral(histogram, ExtentAlong(cluster, volume), weight);
+  judgement.gain = GainOverRest(histogram, ExtentAlong(cluster, volume), weight);
   return judgement;
 }
 
