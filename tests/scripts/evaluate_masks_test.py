@@ -52,8 +52,8 @@ class MaskLawsTest(ScriptTest):
             self.assertEqual(count_pixels(masked, FIGURE, FIGURE).figures(),
                              count_pixels(other, FIGURE, FIGURE).figures())
 
-    def test_one_pixel_beyond_the_border_is_wrong(self):
-        for gap, wrong in ((BORDER_PX, 0), (BORDER_PX + 1, 1)):
+    def test_eight_pixels_outside_are_border_and_the_ninth_is_wrong(self):
+        for gap, wrong in ((8, 0), (9, 1)):
             pixel = box(30, 30 - gap, 31, 31 - gap)
             self.assertEqual(count_pixels(FIGURE | pixel, FIGURE, FIGURE).wrong, wrong)
 
@@ -63,6 +63,9 @@ class MaskLawsTest(ScriptTest):
         for masked in (moving, FIGURE):
             figures = count_pixels(masked, moving, FIGURE).figures()
             self.assertEqual(figures, {"precision": 1, "recall": 1, "iou": 1, "wrongly_masked": 0})
+
+    def test_what_moves_can_move_whatever_the_other_folder_says(self):
+        self.assertEqual(count_pixels(FIGURE, FIGURE, NOTHING), count_pixels(FIGURE, FIGURE, FIGURE))
 
     def test_a_shifted_mask_has_the_figures_of_its_overlap(self):
         side, shift = 20, 12
@@ -132,8 +135,10 @@ class MaskScriptTest(ScriptTest):
         for stem in self.stems[6:]:
             self.save_image("masks", stem, FIGURE, 1)
         Image.fromarray(FIGURE).convert("RGBA").save(self.path(f"masks/{self.stems[6]}.png"))
+        Image.new("RGBA", (WIDTH, HEIGHT), (0, 0, 0, 255)).save(self.path(f"masks/{self.stems[0]}.png"))
         Image.fromarray(FIGURE.astype(np.uint8)).convert("P").save(self.path(f"masks/{self.stems[7]}.png"))
-        self.assertEqual(self.result()["recall"], 0.6)
+        result = self.result()
+        self.assertEqual((result["recall"], result["wrongly_masked"]), (0.6, 0))
 
     def test_where_nothing_moves_all_that_is_masked_is_wrong(self):
         result = self.result("--static")
