@@ -18,6 +18,21 @@ cv::Point2f Project(const GridCamera& camera, const Rigid3d& pose, const Eigen::
   return {static_cast<float>(camera.fx * q.x() / z + camera.cx), static_cast<float>(camera.fy * q.y() / z + camera.cy)};
 }
 
+/// Distance of a point from the segment between two others.
+float DistanceToSegment(cv::Point2f p, cv::Point2f a, cv::Point2f b) {
+  const cv::Point2f along = b - a, offset = p - a;
+  const float length2 = along.dot(along);
+  const float share = length2 > 0 ? std::clamp(offset.dot(along) / length2, 0.f, 1.f) : 0.f;
+  return static_cast<float>(cv::norm(offset - share * along));
+}
+
+float Residual(const GridCamera& camera, const Rigid3d& pose, const TrackedCorner& corner) {
+  constexpr float kNear = 0.3f, kFar = 30.f;  // metres; nearer, nothing is in focus
+  const auto at = [&](float depth_m) { return Project(camera, pose, Point(camera, corner.previous, depth_m)); };
+  if (corner.depth_m > 0) return static_cast<float>(cv::norm(corner.current - at(corner.depth_m)));
+  return DistanceToSegment(corner.current, at(kFar), at(kNear));
+}
+
 }  // namespace
 
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
@@ -76,12 +91,8 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   motion.fit_share = icp.FitShare();
   motion.depth_current_from_previous = Inverse(icp.base_from_source);
 
-  for (TrackedCorner& corner : motion.corners) {
-    corner.has_expected = corner.depth_m > 0;
-    corner.expected = corner.has_expected ? Project(grids_.gray, motion.color_current_from_previous,
-                                                    Point(grids_.gray, corner.previous, corner.depth_m))
-                                          : corner.current;
-  }
+  for (TrackedCorner& corner : motion.corners)
+    corner.residual_px = Residual(grids_.gray, motion.color_current_from_previous, corner);
   if (!from_corners.ok) motion.failure = "too few corners could be followed";
   if (motion.fit_share < options_.min_fit_share) motion.failure = "the depth does not fit the last frame's";
   velocity_ = from_corners.ok ? from_corners.current_from_previous : Inverse(icp.base_from_source);

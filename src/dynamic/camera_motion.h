@@ -22,10 +22,10 @@ struct CameraMotionOptions {
 /// A corner followed from the last frame into this one.
 struct TrackedCorner {
   cv::Point2f previous, current;  // grey grid, px
-  cv::Point2f expected;           // where a static point would be now; equal to current without depth
   float depth_m = 0;              // in the last frame; 0: none
   bool was_moving = false;        // in the last mask
-  bool has_expected = false;
+  float residual_px = 0;  // distance to where a static point would be now; without depth, to the nearest of all
+                          // places where one at any depth from 0.3 m on would be
 };
 
 /// How the camera moved from the last frame to this one. Colour and depth images are taken at different times

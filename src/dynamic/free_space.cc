@@ -5,36 +5,10 @@
 #include <vector>
 
 #include "depth_noise.h"
+#include "projection.h"
 
 namespace orbslam {
 namespace {
-
-/// A row of cells as seen from a reference: its cell there (-1: none) and its depth there.
-struct ProjectedRow {
-  std::vector<int> index;
-  std::vector<float> depth_m;
-};
-
-void ProjectRow(const GridCamera& camera, const Rigid3d& pose, int v, const float* depth, ProjectedRow* row) {
-  const Eigen::Matrix3f r = pose.RotationMatrix().cast<float>();
-  const Eigen::Vector3f t = pose.translation.cast<float>();
-  const float b = (static_cast<float>(v) - camera.cy) / camera.fy, inverse_fx = 1 / camera.fx;
-  // A ray's direction in the reference is linear in u.
-  const Eigen::Vector3f first = r * Eigen::Vector3f(-camera.cx * inverse_fx, b, 1), step = r.col(0) * inverse_fx;
-  const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-  int* index = row->index.data();
-  float* out = row->depth_m.data();
-  for (int u = 0; u < camera.width; ++u) {
-    const float z = depth[u], n = static_cast<float>(u);
-    const float qz = (first.z() + n * step.z()) * z + t.z();
-    const float inverse = 1 / qz;
-    const float pu = ((first.x() + n * step.x()) * z + t.x()) * inverse * camera.fx + camera.cx + 0.5f;
-    const float pv = ((first.y() + n * step.y()) * z + t.y()) * inverse * camera.fy + camera.cy + 0.5f;
-    const bool inside = z > 0 && qz > 0.1f && pu >= 0 && pv >= 0 && pu < width && pv < height;
-    out[u] = qz;
-    index[u] = inside ? static_cast<int>(pv) * camera.width + static_cast<int>(pu) : -1;
-  }
-}
 
 void AddVotes(const GridCamera& camera, const cv::Mat1f& depth_m, const ReferenceView& reference,
               const FreeSpaceOptions& options, ProjectedRow* row, FreeSpaceVotes* votes) {
@@ -69,7 +43,7 @@ FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_
   votes.num_static = cv::Mat1b::zeros(depth_m.size());
   votes.suspicious = cv::Mat1b::zeros(depth_m.size());
   votes.confirmed_static = cv::Mat1b::zeros(depth_m.size());
-  ProjectedRow row{std::vector<int>(camera.width), std::vector<float>(camera.width)};
+  ProjectedRow row(camera.width);
   for (const ReferenceView* reference : references) AddVotes(camera, depth_m, *reference, options, &row, &votes);
 
   cv::Mat1b candidate = cv::Mat1b::zeros(depth_m.size());

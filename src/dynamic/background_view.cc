@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "background_view.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "projection.h"
+
+namespace orbslam {
+namespace {
+
+constexpr float kFar = 1e6f;
+
+struct Canvas {
+  cv::Mat1f depth_m, gray;
+};
+
+/// Ratio of exposures, current over reference, from the cells where the two see the same surface.
+float ExposureRatio(const GridCamera& camera, const WorkingFrame& current, const ReferenceView& reference) {
+  constexpr int kStride = 8;  // rows; 2400 cells of 19200
+  ProjectedRow row(camera.width);
+  double now = 1, then = 1;
+  for (int v = kStride / 2; v < camera.height; v += kStride) {
+    ProjectRow(camera, reference.reference_from_current, v, current.depth_m[v], &row);
+    for (int u = 0; u < camera.width; ++u) {
+      const int index = row.index[u];
+      if (index < 0 || reference.moving(index) != 0) continue;
+      if (std::abs(reference.frame->depth_m(index) - row.depth_m[u]) > MaxSurfaceStepM(row.depth_m[u])) continue;
+      now += current.pyramid[1](v, u), then += reference.frame->pyramid[1](index);
+    }
+  }
+  return std::clamp(static_cast<float>(now / then), 0.5f, 2.f);
+}
+
+void Splat(const GridCamera& camera, const WorkingFrame& current, const ReferenceView& reference, Canvas* canvas) {
+  const Rigid3d current_from_reference = Inverse(reference.reference_from_current);
+  const float exposure = ExposureRatio(camera, current, reference);
+  ProjectedRow row(camera.width);
+  for (int v = 0; v < camera.height; ++v) {
+    ProjectRow(camera, current_from_reference, v, reference.frame->depth_m[v], &row);
+    const uint8_t* moving = reference.moving[v];
+    const float* gray = reference.frame->pyramid[1][v];
+    for (int u = 0; u < camera.width; ++u) {
+      const int index = row.index[u];
+      if (index < 0 || moving[u] != 0) continue;
+      float& depth = canvas->depth_m(index);
+      if (row.depth_m[u] >= depth) continue;
+      depth = row.depth_m[u];
+      canvas->gray(index) = gray[u] * exposure;
+    }
+  }
+}
+
+}  // namespace
+
+BackgroundView RenderBackground(const GridCamera& camera, const WorkingFrame& current,
+                                std::span<const ReferenceView* const> references) {
+  Canvas canvas{cv::Mat1f(camera.height, camera.width, kFar), cv::Mat1f(camera.height, camera.width, 0.f)};
+  for (const ReferenceView* reference : references) Splat(camera, current, *reference, &canvas);
+
+  BackgroundView view;
+  const cv::Mat ones = cv::Mat::ones(3, 3, CV_8U);
+  const cv::Mat1b empty = canvas.depth_m >= kFar;
+  cv::erode(canvas.depth_m, view.depth_m, ones);  // the nearest of the 3 x 3: closes holes
+  view.depth_m.setTo(0, view.depth_m >= kFar);
+  cv::dilate(canvas.gray, view.brightest, ones);
+  canvas.gray.setTo(kFar, empty);
+  cv::erode(canvas.gray, view.darkest, ones);
+  return view;
+}
+
+}  // namespace orbslam

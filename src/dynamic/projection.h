@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "orbslam/geometry/rigid3.h"
+#include "working_frame.h"
+
+namespace orbslam {
+
+/// A row of cells as another view sees it: index of the cell there (-1: none) and depth there, metres.
+struct ProjectedRow {
+  explicit ProjectedRow(int width) : index(width), depth_m(width) {}
+  std::vector<int> index;
+  std::vector<float> depth_m;
+};
+
+/// Projects row v of a depth image (0: none) into the view at other_from_this, nearest cell.
+void ProjectRow(const GridCamera& camera, const Rigid3d& other_from_this, int v, const float* depth_m,
+                ProjectedRow* row);
+
+}  // namespace orbslam
