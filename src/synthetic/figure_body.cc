@@ -48,7 +48,7 @@ const std::vector<Section>& Skull() {
                                               {0.205, 0.097, 0.074, -0.003}};
   return kSkull;
 }
-constexpr LoftDetail kSkullDetail = {64, 48, 1, 1, true, true};
+constexpr LoftDetail kSkullDetail = {56, 36, 1, 1, true, true};
 constexpr double kCrownZ = 0.264, kChinZ = 0.007;
 constexpr double kBrowsZ = 0.161, kEyesZ = 0.144, kNoseZ = 0.110, kMouthZ = 0.082;
 
@@ -91,7 +91,7 @@ Mesh BodyMeshes::Hips() const {
                {-0.030, 0.112, 0.162, -0.010},
                {0.040, 0.104, 0.158, -0.008},
                {0.120, 0.086, 0.136, 0}},
-              32, 12);
+              28, 8);
 }
 
 Mesh BodyMeshes::Shirt() const {
@@ -100,14 +100,14 @@ Mesh BodyMeshes::Shirt() const {
       {0.210, 0.119, 0.164, 0.006},   {0.300, 0.120, 0.172, 0.000},   {0.350, 0.108, 0.184, -0.008},
       {0.388, 0.090, 0.178, -0.014},  {0.420, 0.076, 0.144, -0.016},  {0.438, 0.068, 0.106, -0.016},
       {0.454, 0.061, 0.074, -0.013},  {0.474, 0.057, 0.061, -0.011}};
-  return Loft(Scaled(sections, scale_), {40, 44, 1, 1, false, false});
+  return Loft(Scaled(sections, scale_), {36, 36, 1, 1, false, false});
 }
 
 Mesh BodyMeshes::Neck() const {
   return Loft(
       Scaled({{-0.060, 0.050, 0.052, -0.014}, {0.010, 0.050, 0.050, -0.010}, {0.080, 0.052, 0.049, 0}},
              scale_),
-      {24, 8, 1, 1, true, true});
+      {20, 5, 1, 1, true, true});
 }
 
 Mesh BodyMeshes::Face() const {
@@ -123,7 +123,7 @@ Mesh BodyMeshes::Face() const {
 }
 
 Mesh BodyMeshes::Ears() const {
-  Mesh ears = Ellipsoid({-0.008, 0.076, 0.135}, {0.019, 0.010, 0.030});
+  Mesh ears = Ellipsoid({-0.008, 0.076, 0.135}, {0.019, 0.010, 0.030}, 12, 5);
   Mesh right = ears;
   MirrorY(&right);
   Append(right, &ears);
@@ -155,14 +155,14 @@ Mesh BodyMeshes::UpperArm() const {
                {-0.08, 0.054, 0.050},
                {-0.04, 0.053, 0.048},
                {-0.01, 0.045, 0.040}},
-              20, 12);
+              18, 8);
 }
 
 Mesh BodyMeshes::Forearm() const {
   const double wrist = -size_.forearm / scale_;
   return Limb(
       {{wrist - 0.005, 0.034, 0.033}, {wrist + 0.03, 0.036, 0.034}, {-0.08, 0.044, 0.041}, {0, 0.044, 0.043}},
-      20, 10);
+      18, 7);
 }
 
 Mesh BodyMeshes::Hand() const {
@@ -174,19 +174,19 @@ Mesh BodyMeshes::Hand() const {
   for (int i = 0; i < 4; ++i) {
     const double x = 0.030 - 0.0195 * i, length = kLengths[i];
     const Vector3d knuckle(x, 0, -0.085), middle(x, -0.008, -0.085 - 0.5 * length);
-    Append(Rod(knuckle, middle, 0.0092, 8), &hand);
-    Append(Rod(middle, {0.95 * x, -0.030, -0.085 - 0.9 * length}, 0.0082, 8), &hand);
+    Append(Rod(knuckle, middle, 0.0092, 6), &hand);
+    Append(Rod(middle, {0.95 * x, -0.030, -0.085 - 0.9 * length}, 0.0082, 6), &hand);
   }
-  Append(Rod({0.026, -0.004, -0.025}, {0.052, -0.014, -0.062}, 0.0115, 8), &hand);
-  Append(Rod({0.052, -0.014, -0.062}, {0.055, -0.022, -0.092}, 0.0095, 8), &hand);
+  Append(Rod({0.026, -0.004, -0.025}, {0.052, -0.014, -0.062}, 0.0115, 6), &hand);
+  Append(Rod({0.052, -0.014, -0.062}, {0.055, -0.022, -0.092}, 0.0095, 6), &hand);
   Transform(Eigen::Isometry3d(Eigen::Scaling(scale_)), &hand);
   return hand;
 }
 
 Mesh BodyMeshes::Thigh() const {
   const double knee = -size_.thigh / scale_;
-  return Limb({{knee, 0.060, 0.059}, {-0.27, 0.070, 0.067}, {-0.10, 0.084, 0.079}, {0.0, 0.088, 0.080}}, 24,
-              14);
+  return Limb({{knee, 0.060, 0.059}, {-0.27, 0.070, 0.067}, {-0.10, 0.084, 0.079}, {0.0, 0.088, 0.080}}, 20,
+              9);
 }
 
 Mesh BodyMeshes::Shin() const {
@@ -195,7 +195,7 @@ Mesh BodyMeshes::Shin() const {
                {-0.30, 0.057, 0.053},
                {-0.12, 0.063, 0.058, -0.008},
                {0.0, 0.061, 0.059}},
-              24, 14);
+              20, 9);
 }
 
 Mesh BodyMeshes::Shoe() const {
@@ -204,7 +204,7 @@ Mesh BodyMeshes::Shoe() const {
                                         {0.040, 0.056, 0.039, -0.048},
                                         {0.075, 0.044, 0.043, -0.058},
                                         {0.097, 0.034, 0.046, -0.063}},
-                   {24, 16, 1, 1, true, true});
+                   {20, 10, 1, 1, true, true});
   shoe = LaidDown(std::move(shoe));
   Flatten(-0.085, &shoe);
   Transform(Eigen::Isometry3d(Eigen::Scaling(scale_)), &shoe);
@@ -215,7 +215,7 @@ Mesh BodyMeshes::ShoeTip() const {
   Mesh tip = Loft(
       std::vector<Section>{
           {-0.020, 0.033, 0.0465, 0.020}, {0.020, 0.030, 0.044, 0.016}, {0.052, 0.024, 0.034, 0.013}},
-      {24, 10, 1, 1, true, true});
+      {20, 6, 1, 1, true, true});
   tip = LaidDown(std::move(tip));
   Flatten(0.0, &tip);
   Transform(Eigen::Isometry3d(Eigen::Scaling(scale_)), &tip);

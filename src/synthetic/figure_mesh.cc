@@ -66,7 +66,7 @@ Section SectionAt(std::span<const Section> sections, double z) {
 
 /// Fine sections from the bottom up, with rounded ends where wanted.
 std::vector<Section> FineSections(std::span<const Section> sections, const LoftDetail& detail) {
-  constexpr int kCapRings = 5;
+  constexpr int kCapRings = 4;
   constexpr double kCapDepth = 0.8;  // of the smaller radius
   std::vector<Section> fine;
   const auto cap = [](const Section& end, double angle, double sign) {

@@ -2,6 +2,7 @@
 #include "orbslam/synthetic/props.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "props_paint.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 namespace orbslam {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
+#include <Eigen/Geometry>
+#include <utility>
 
-#include "orbslam/util/check.h"
 #include "script_cast.h"
 
 namespace orbslam {

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <map>
+#include <array>
 #include <opencv2/core.hpp>
 
 #include "orbslam/synthetic/actor.h"
