@@ -2,6 +2,7 @@
 #include "orbslam/dynamic/motion_histogram.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "orbslam/camera/depth_model.h"
@@ -10,7 +11,6 @@
 namespace orbslam {
 namespace {
 
-constexpr int kRunLength = 16;
 constexpr float kMinBinM = 0.02F;
 
 /// A capsule in one cloud's frame: the points within radius of a segment of 2 reach round the centre.
@@ -20,11 +20,9 @@ struct Capsule {
   float reach;
   float radius;
 
-  float Along(const Eigen::Vector3f& point) const { return direction.dot(point - centre); }
-
-  float SquaredDistance(const Eigen::Vector3f& point, float along) const {
-    const float nearest = std::clamp(along, -reach, reach);
-    return (point - centre - nearest * direction).squaredNorm();
+  float SquaredDistance(const Eigen::Vector3f& point) const {
+    const float along = direction.dot(point - centre);
+    return (point - centre - std::clamp(along, -reach, reach) * direction).squaredNorm();
   }
 };
 
@@ -35,57 +33,84 @@ Capsule InFrameOf(const HistogramRow& row, const SweptVolume& volume, float reac
           volume.ball.radius_m};
 }
 
-/// Adds `weight` at `position`, in bins from the centre of the first one.
+/// Adds `weight` at `position`, in bins from the centre of the first one; inside but for rounding.
 void Splat(float position, float weight, int num_bins, float* bins) {
-  const float floor = std::floor(position);
-  const float share = weight * (position - floor);
-  const int low = static_cast<int>(floor);
-  bins[std::clamp(low, 0, num_bins - 1)] += weight - share;
-  bins[std::clamp(low + 1, 0, num_bins - 1)] += share;
+  const int low = std::clamp(static_cast<int>(position), 0, num_bins - 2);
+  const float share = weight * (position - static_cast<float>(low));
+  bins[low] += weight - share;
+  bins[low + 1] += share;
 }
+
+/// Where a block's points are along the capsule, and how far from its axis.
+struct Placement {
+  std::array<float, HistogramCloud::Block::kSize> along, squared_distance;
+
+  Placement(const HistogramCloud::Block& block, const Capsule& capsule) {
+    for (int i = 0; i < HistogramCloud::Block::kSize; ++i) {
+      const float x = block.x_m[i] - capsule.centre.x();
+      const float y = block.y_m[i] - capsule.centre.y();
+      const float z = block.z_m[i] - capsule.centre.z();
+      along[i] = x * capsule.direction.x() + y * capsule.direction.y() + z * capsule.direction.z();
+      const float nearest = std::min(std::max(along[i], -capsule.reach), capsule.reach);
+      squared_distance[i] = x * x + y * y + z * z + nearest * (nearest - 2 * along[i]);
+    }
+  }
+};
 
 void FillRow(const HistogramCloud& cloud, const Capsule& capsule, float first_m, float bin_m, int num_bins,
              float* bins) {
   const float squared_radius = capsule.radius * capsule.radius;
   const float per_bin = 1.0F / bin_m;
-  for (const HistogramCloud::Run& run : cloud.runs()) {
-    const float limit = capsule.radius + run.radius_m;
-    if (capsule.SquaredDistance(run.centre_m, capsule.Along(run.centre_m)) > limit * limit) continue;
-    for (const Eigen::Vector4f& point : cloud.points().subspan(run.begin, run.end - run.begin)) {
-      const Eigen::Vector3f position = point.head<3>();
-      const float along = capsule.Along(position);
-      if (capsule.SquaredDistance(position, along) > squared_radius) continue;
-      Splat((along - first_m) * per_bin, point.w(), num_bins, bins);
+  for (const HistogramCloud::Block& block : cloud.blocks()) {
+    const float limit = capsule.radius + block.radius_m;
+    if (capsule.SquaredDistance(block.centre_m) > limit * limit) continue;
+    const Placement placement(block, capsule);
+    for (int i = 0; i < HistogramCloud::Block::kSize; ++i) {
+      if (placement.squared_distance[i] > squared_radius) continue;
+      Splat((placement.along[i] - first_m) * per_bin, block.weight[i], num_bins, bins);
     }
   }
 }
 
-HistogramCloud::Run Enclose(std::span<const Eigen::Vector4f> points, int begin, int end) {
-  Eigen::Vector3f low = points[begin].head<3>();
-  Eigen::Vector3f high = low;
-  for (int i = begin + 1; i < end; ++i) {
-    low = low.cwiseMin(points[i].head<3>());
-    high = high.cwiseMax(points[i].head<3>());
-  }
+void Append(const Eigen::Vector3f& point_m, float weight, int index, HistogramCloud::Block* block) {
+  block->x_m[index] = point_m.x();
+  block->y_m[index] = point_m.y();
+  block->z_m[index] = point_m.z();
+  block->weight[index] = weight;
+}
+
+void Enclose(HistogramCloud::Block* block) {
+  using Axis = Eigen::Map<const Eigen::Array<float, HistogramCloud::Block::kSize, 1>>;
+  const Axis x(block->x_m.data());
+  const Axis y(block->y_m.data());
+  const Axis z(block->z_m.data());
+  const Eigen::Vector3f low(x.minCoeff(), y.minCoeff(), z.minCoeff());
+  const Eigen::Vector3f high(x.maxCoeff(), y.maxCoeff(), z.maxCoeff());
+  block->centre_m = 0.5F * (low + high);
   // A hair more, so that rounding never loses a point on the sphere.
-  return {0.5F * (low + high), 0.5F * (high - low).norm() + 1e-5F, begin, end};
+  block->radius_m = 0.5F * (high - low).norm() + 1e-5F;
 }
 
 }  // namespace
 
 HistogramCloud::HistogramCloud(std::span<const Eigen::Vector3f> points_m, std::span<const float> weights) {
   ORBSLAM_CHECK(weights.empty() || weights.size() == points_m.size());
-  points_.reserve(points_m.size());
+  blocks_.reserve(points_m.size() / Block::kSize + 1);
+  int filled = Block::kSize;
   for (size_t i = 0; i < points_m.size(); ++i) {
     const Eigen::Vector3f& p = points_m[i];
     if (!p.allFinite() || !(p.z() > 0)) continue;
-    points_.emplace_back(p.x(), p.y(), p.z(), weights.empty() ? p.z() * p.z() : weights[i]);
+    if (filled == Block::kSize) {
+      blocks_.emplace_back();
+      filled = 0;
+    }
+    Append(p, weights.empty() ? p.z() * p.z() : weights[i], filled++, &blocks_.back());
   }
-  const int num_points = static_cast<int>(points_.size());
-  runs_.reserve(points_.size() / kRunLength + 1);
-  for (int begin = 0; begin < num_points; begin += kRunLength) {
-    runs_.push_back(Enclose(points_, begin, std::min(begin + kRunLength, num_points)));
+  for (; !blocks_.empty() && filled < Block::kSize; ++filled) {
+    const Block& last = blocks_.back();
+    Append({last.x_m[0], last.y_m[0], last.z_m[0]}, 0, filled, &blocks_.back());
   }
+  for (Block& block : blocks_) Enclose(&block);
 }
 
 double SurfaceWeight(std::span<const Eigen::Vector3f> points_m) {

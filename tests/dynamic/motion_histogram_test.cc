@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "moving_scene.h"
 
 namespace orbslam {
@@ -88,8 +90,9 @@ TEST(MotionHistogram, ASurfaceWeighsTheSameAtAnyDistance) {
 TEST(HistogramCloud, LeavesOutWhatIsNoMeasurement) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const HistogramCloud cloud(std::vector<Eigen::Vector3f>{{0, 0, 0}, {0, nan, 1}, {0, 0, 1}, {0, 0, -1}});
-  EXPECT_EQ(cloud.points().size(), 1U);
-  EXPECT_TRUE(HistogramCloud().runs().empty());
+  ASSERT_EQ(cloud.blocks().size(), 1U);
+  EXPECT_EQ(std::accumulate(cloud.blocks()[0].weight.begin(), cloud.blocks()[0].weight.end(), 0.0F), 1.0F);
+  EXPECT_TRUE(HistogramCloud(std::span<const Eigen::Vector3f>()).blocks().empty());
 }
 
 TEST(ExtentAlong, IsThatOfThePointsInTheBall) {

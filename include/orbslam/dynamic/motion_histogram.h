@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,19 +25,18 @@ class HistogramCloud {
   /// Otherwise one weight a point (all 1: points are counted, as in the published method).
   explicit HistogramCloud(std::span<const Eigen::Vector3f> points_m, std::span<const float> weights = {});
 
-  struct Run {
-    Eigen::Vector3f centre_m;
+  /// Neighbouring points side by side, so that they are tested together. The last block of a cloud is filled
+  /// up with points of weight zero.
+  struct Block {
+    static constexpr int kSize = 16;
+    std::array<float, kSize> x_m, y_m, z_m, weight;
+    Eigen::Vector3f centre_m;  // of a sphere round the points
     float radius_m;
-    int begin;
-    int end;
   };
-  std::span<const Run> runs() const { return runs_; }
-  /// x, y, z in metres, then the weight.
-  std::span<const Eigen::Vector4f> points() const { return points_; }
+  std::span<const Block> blocks() const { return blocks_; }
 
  private:
-  std::vector<Eigen::Vector4f> points_;
-  std::vector<Run> runs_;
+  std::vector<Block> blocks_;
 };
 
 /// Sum of z^2 of the points: S_p in the units of an unweighted HistogramCloud.
