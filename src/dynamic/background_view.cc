@@ -25,14 +25,16 @@ float ExposureRatio(const GridCamera& camera, const WorkingFrame& current, const
     for (int u = 0; u < camera.width; ++u) {
       const int index = row.index[u];
       if (index < 0 || reference.moving(index) != 0) continue;
-      if (std::abs(reference.frame->depth_m(index) - row.depth_m[u]) > MaxSurfaceStepM(row.depth_m[u])) continue;
+      if (std::abs(reference.frame->depth_m(index) - row.depth_m[u]) > MaxSurfaceStepM(row.depth_m[u]))
+        continue;
       now += current.pyramid[1](v, u), then += reference.frame->pyramid[1](index);
     }
   }
   return std::clamp(static_cast<float>(now / then), 0.5f, 2.f);
 }
 
-void Splat(const GridCamera& camera, const WorkingFrame& current, const ReferenceView& reference, Canvas* canvas) {
+void Splat(const GridCamera& camera, const WorkingFrame& current, const ReferenceView& reference,
+           Canvas* canvas) {
   const Rigid3d current_from_reference = Inverse(reference.reference_from_current);
   const float exposure = ExposureRatio(camera, current, reference);
   ProjectedRow row(camera.width);

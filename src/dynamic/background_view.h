@@ -10,7 +10,7 @@ namespace orbslam {
 
 /// What the references let expect of the static scene in the present view.
 struct BackgroundView {
-  cv::Mat1f depth_m;            // cells; 0: no reference saw anything there
+  cv::Mat1f depth_m;             // cells; 0: no reference saw anything there
   cv::Mat1f darkest, brightest;  // grey levels of it, over the 3 x 3 cells around
 };
 

@@ -15,22 +15,25 @@ Eigen::Vector3f Point(const GridCamera& camera, cv::Point2f pixel, float depth_m
 cv::Point2f Project(const GridCamera& camera, const Rigid3d& pose, const Eigen::Vector3f& x) {
   const Eigen::Vector3d q = pose * x.cast<double>();
   const double z = std::max(q.z(), 0.05);
-  return {static_cast<float>(camera.fx * q.x() / z + camera.cx), static_cast<float>(camera.fy * q.y() / z + camera.cy)};
+  return {static_cast<float>(camera.fx * q.x() / z + camera.cx),
+          static_cast<float>(camera.fy * q.y() / z + camera.cy)};
 }
 
-/// Distance of a point from the segment between two others.
-float DistanceToSegment(cv::Point2f p, cv::Point2f a, cv::Point2f b) {
+/// From the nearest point of the segment between a and b to p.
+cv::Point2f FromSegment(cv::Point2f p, cv::Point2f a, cv::Point2f b) {
   const cv::Point2f along = b - a, offset = p - a;
   const float length2 = along.dot(along);
   const float share = length2 > 0 ? std::clamp(offset.dot(along) / length2, 0.f, 1.f) : 0.f;
-  return static_cast<float>(cv::norm(offset - share * along));
+  return offset - share * along;
 }
 
-float Residual(const GridCamera& camera, const Rigid3d& pose, const TrackedCorner& corner) {
+cv::Point2f Excess(const GridCamera& camera, const Rigid3d& pose, const TrackedCorner& corner) {
   constexpr float kNear = 0.3f, kFar = 30.f;  // metres; nearer, nothing is in focus
-  const auto at = [&](float depth_m) { return Project(camera, pose, Point(camera, corner.previous, depth_m)); };
-  if (corner.depth_m > 0) return static_cast<float>(cv::norm(corner.current - at(corner.depth_m)));
-  return DistanceToSegment(corner.current, at(kFar), at(kNear));
+  const auto at = [&](float depth_m) {
+    return Project(camera, pose, Point(camera, corner.previous, depth_m));
+  };
+  if (corner.depth_m > 0) return corner.current - at(corner.depth_m);
+  return FromSegment(corner.current, at(kFar), at(kNear));
 }
 
 }  // namespace
@@ -41,7 +44,8 @@ Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
   return {So3Exp(ratio * So3Log(velocity_.rotation)), ratio * velocity_.translation};
 }
 
-std::vector<TrackedCorner> CameraMotionEstimator::Follow(const ReferenceView& previous, const WorkingFrame& current,
+std::vector<TrackedCorner> CameraMotionEstimator::Follow(const ReferenceView& previous,
+                                                         const WorkingFrame& current,
                                                          const Rigid3d& predicted) const {
   const WorkingFrame& last = *previous.frame;
   const std::vector<cv::Point2f> positions = SpreadCorners(last.gray, {}, options_.corners);
@@ -54,9 +58,11 @@ std::vector<TrackedCorner> CameraMotionEstimator::Follow(const ReferenceView& pr
     corner.depth_m = last.depth_m(v, u);
     corner.was_moving = previous.moving(v, u) != 0;
     // Without depth, as if far away: the flow is then that of the rotation.
-    expected[i] = Project(grids_.gray, predicted, Point(grids_.gray, positions[i], corner.depth_m > 0 ? corner.depth_m : 3.f));
+    expected[i] = Project(grids_.gray, predicted,
+                          Point(grids_.gray, positions[i], corner.depth_m > 0 ? corner.depth_m : 3.f));
   }
-  const std::vector<FlowResult> flow = TrackPatches(last.pyramid, current.pyramid, positions, expected, options_.flow);
+  const std::vector<FlowResult> flow =
+      TrackPatches(last.pyramid, current.pyramid, positions, expected, options_.flow);
   std::vector<TrackedCorner> tracked;
   for (size_t i = 0; i < flow.size(); ++i) {
     if (!flow[i].ok) continue;
@@ -77,9 +83,11 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   std::vector<CornerMatch> matches;
   for (const TrackedCorner& corner : motion.corners)
     if (corner.depth_m > 0 && !corner.was_moving)
-      matches.push_back({Point(grids_.gray, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
+      matches.push_back(
+          {Point(grids_.gray, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
   Rng rng(seed, 0, 0xE60);
-  const PoseFromCorners from_corners = EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
+  const PoseFromCorners from_corners =
+      EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
   motion.num_inliers = from_corners.num_inliers;
   motion.color_current_from_previous = from_corners.ok ? from_corners.current_from_previous : predicted;
 
@@ -91,8 +99,10 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   motion.fit_share = icp.FitShare();
   motion.depth_current_from_previous = Inverse(icp.base_from_source);
 
-  for (TrackedCorner& corner : motion.corners)
-    corner.residual_px = Residual(grids_.gray, motion.color_current_from_previous, corner);
+  for (TrackedCorner& corner : motion.corners) {
+    corner.excess = Excess(grids_.gray, motion.color_current_from_previous, corner);
+    corner.residual_px = static_cast<float>(cv::norm(corner.excess));
+  }
   if (!from_corners.ok) motion.failure = "too few corners could be followed";
   if (motion.fit_share < options_.min_fit_share) motion.failure = "the depth does not fit the last frame's";
   velocity_ = from_corners.ok ? from_corners.current_from_previous : Inverse(icp.base_from_source);

@@ -6,26 +6,19 @@
 
 #include "corner_flow.h"
 #include "ego_motion.h"
+#include "orbslam/dynamic/dynamic_detector_options.h"
 #include "scene_history.h"
 
 namespace orbslam {
-
-struct CameraMotionOptions {
-  CornerOptions corners;
-  FlowOptions flow;
-  PoseFromCornersOptions pose;
-  IcpOptions icp;
-  int far_target = 8;              // frames back: the second target of the alignment, against drift
-  double min_fit_share = 0.5;      // of the paired depth within 3 sigma
-};
 
 /// A corner followed from the last frame into this one.
 struct TrackedCorner {
   cv::Point2f previous, current;  // grey grid, px
   float depth_m = 0;              // in the last frame; 0: none
   bool was_moving = false;        // in the last mask
-  float residual_px = 0;  // distance to where a static point would be now; without depth, to the nearest of all
-                          // places where one at any depth from 0.3 m on would be
+  cv::Point2f excess;             // grey px: from there (below) to where it is
+  float residual_px = 0;  // length of excess: distance to where a static point would be now; without depth,
+                          // to the nearest of all places where one at any depth from 0.3 m on would be
 };
 
 /// How the camera moved from the last frame to this one. Colour and depth images are taken at different times

@@ -8,7 +8,7 @@
 namespace orbslam {
 namespace {
 
-constexpr int kSize = 12;      // px, side of a patch
+constexpr int kSize = 12;  // px, side of a patch
 constexpr int kPixels = kSize * kSize;
 constexpr float kHalf = 5.5f;  // from a patch's first pixel to its centre
 
@@ -48,9 +48,10 @@ bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, float min_texture, Pa
     }
   }
   const float smaller = 0.5f * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy));
-  if (smaller < min_texture * kPixels * 0.1f) return false;
+  if (smaller < min_texture * kPixels) return false;
   const float inverse_det = 1 / (xx * yy - xy * xy);
-  patch->inverse_xx = yy * inverse_det, patch->inverse_xy = -xy * inverse_det, patch->inverse_yy = xx * inverse_det;
+  patch->inverse_xx = yy * inverse_det, patch->inverse_xy = -xy * inverse_det,
+  patch->inverse_yy = xx * inverse_det;
   return true;
 }
 
@@ -76,8 +77,8 @@ bool Refine(const Patch& patch, const cv::Mat1f& image, const FlowOptions& optio
   return true;
 }
 
-FlowResult TrackPatch(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to, cv::Point2f position,
-                      cv::Point2f predicted, const FlowOptions& options) {
+FlowResult TrackPatch(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to,
+                      cv::Point2f position, cv::Point2f predicted, const FlowOptions& options) {
   FlowResult result;
   cv::Point2f flow = predicted - position;
   Patch patch;
@@ -114,7 +115,8 @@ std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& a
     const int x = static_cast<int>(corner.pt.x), y = static_cast<int>(corner.pt.y);
     if (x < margin || y < margin || x >= gray.cols - margin || y >= gray.rows - margin) continue;
     if (!IsAllowed(allowed, gray, corner)) continue;
-    cells[y * options.rows / gray.rows * options.columns + x * options.columns / gray.cols].push_back(&corner);
+    cells[y * options.rows / gray.rows * options.columns + x * options.columns / gray.cols].push_back(
+        &corner);
   }
   std::vector<cv::Point2f> chosen;
   for (auto& cell : cells) {

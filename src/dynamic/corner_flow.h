@@ -4,24 +4,14 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace orbslam {
+#include "orbslam/dynamic/dynamic_detector_options.h"
 
-struct CornerOptions {
-  int columns = 16, rows = 12;  // cells of the grid over the image in which corners compete
-  int per_cell = 2;             // strongest corners kept in each
-  int fast_threshold = 10;      // grey levels: 3 sigma of the difference of two 8-bit camera pixels
-};
+namespace orbslam {
 
 /// Corners (FAST-9, Rosten and Drummond 2006) of a grey image, spread over it. allowed: of the same size or
 /// half of it, 0: no corner here; empty: everywhere.
-std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& allowed, const CornerOptions& options);
-
-struct FlowOptions {
-  int max_iterations = 8;            // Gauss-Newton steps a level
-  float min_step_px = 0.03f;         // converged; a tenth of the noise of the flow itself
-  float min_texture = 25.f;          // smaller eigenvalue of the mean structure tensor, (grey levels / px)^2
-  float max_difference_grey = 20.f;  // mean absolute difference of the patches in the end
-};
+std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& allowed,
+                                       const CornerOptions& options);
 
 struct FlowResult {
   cv::Point2f position;

@@ -20,9 +20,11 @@ cv::Mat1f Smoothed(const cv::Mat1f& log_odds, const cv::Mat1f& weight) {
 }
 
 /// What the corners say, spread over the blocks around them; log-odds a cell.
-cv::Mat1f CornerLogOdds(cv::Size cells, const std::vector<TrackedCorner>& corners, const GrowthOptions& options) {
-  constexpr float kRestsPx = 1.5f, kMovesPx = 3.f;  // grey px, 1.5 and 3 sigma of flow and of the camera's motion
-  constexpr int kBlock = 4;                         // cells
+cv::Mat1f CornerLogOdds(cv::Size cells, const std::vector<TrackedCorner>& corners,
+                        const GrowthOptions& options) {
+  constexpr float kRestsPx = 1.5f,
+                  kMovesPx = 3.f;  // grey px, 1.5 and 3 sigma of flow and of the camera's motion
+  constexpr int kBlock = 4;        // cells
   cv::Mat1f blocks = cv::Mat1f::zeros(cells.height / kBlock + 1, cells.width / kBlock + 1);
   for (const TrackedCorner& corner : corners) {
     const int u = cvFloor(corner.current.x / (2 * kBlock)), v = cvFloor(corner.current.y / (2 * kBlock));
@@ -38,8 +40,9 @@ cv::Mat1f CornerLogOdds(cv::Size cells, const std::vector<TrackedCorner>& corner
 
 }  // namespace
 
-cv::Mat1f DepthlessLogOdds(const WorkingFrame& frame, const cv::Mat1f& carried, const BackgroundView& background,
-                           const std::vector<TrackedCorner>& corners, const GrowthOptions& options) {
+cv::Mat1f DepthlessLogOdds(const WorkingFrame& frame, const cv::Mat1f& carried,
+                           const BackgroundView& background, const std::vector<TrackedCorner>& corners,
+                           const GrowthOptions& options) {
   const cv::Mat1f& gray = frame.pyramid[1];
   const cv::Mat1f from_corners = CornerLogOdds(gray.size(), corners, options);
   cv::Mat1f log_odds = cv::Mat1f::zeros(gray.size()), weight = cv::Mat1f::zeros(gray.size());

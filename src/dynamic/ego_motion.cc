@@ -31,9 +31,10 @@ float SquaredError(const GridCamera& camera, const Motion& motion, const CornerM
   return du * du + dv * dv;
 }
 
-/// One Gauss-Newton step over the given matches, each weighted by Tukey's biweight of scale (px); 0: all alike.
-Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matches, const std::vector<int>& used,
-                const Rigid3d& pose, float scale_px) {
+/// One Gauss-Newton step over the given matches, each weighted by Tukey's biweight of scale (px); 0: all
+/// alike.
+Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matches,
+                const std::vector<int>& used, const Rigid3d& pose, float scale_px) {
   const Motion motion = ToMotion(pose);
   Matrix6f hessian = Matrix6f::Identity() * 1e-3f;
   Vector6f gradient = Vector6f::Zero();
@@ -51,8 +52,9 @@ Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matche
       weight = (1 - share2) * (1 - share2);
     }
     Eigen::Matrix<float, 2, 6> jacobian;  // rotation, then translation, on the left of the pose
-    jacobian << -camera.fx * x * y, camera.fx * (1 + x * x), -camera.fx * y, camera.fx * iz, 0, -camera.fx * x * iz,
-        -camera.fy * (1 + y * y), camera.fy * x * y, camera.fy * x, 0, camera.fy * iz, -camera.fy * y * iz;
+    jacobian << -camera.fx * x * y, camera.fx * (1 + x * x), -camera.fx * y, camera.fx * iz, 0,
+        -camera.fx * x * iz, -camera.fy * (1 + y * y), camera.fy * x * y, camera.fy * x, 0, camera.fy * iz,
+        -camera.fy * y * iz;
     hessian.noalias() += weight * jacobian.transpose() * jacobian;
     gradient.noalias() += weight * jacobian.transpose() * error;
   }
@@ -62,7 +64,8 @@ Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matche
 }
 
 /// Truncated sum of squared errors (MSAC, Torr and Zisserman 2000).
-float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, const Rigid3d& pose, float inlier_px) {
+float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, const Rigid3d& pose,
+           float inlier_px) {
   const Motion motion = ToMotion(pose);
   float sum = 0;
   for (const CornerMatch& match : matches)
@@ -71,7 +74,8 @@ float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, co
 }
 
 Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>& matches,
-                       const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options, Rng* rng) {
+                       const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
+                       Rng* rng) {
   Rigid3d best = candidates.front();
   float best_cost = Cost(camera, matches, best, options.inlier_px);
   const auto consider = [&](const Rigid3d& pose) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "orbslam/dynamic/dynamic_detector_options.h"
 #include "orbslam/geometry/rigid3.h"
 #include "orbslam/util/random.h"
 #include "working_frame.h"
@@ -12,14 +13,8 @@ namespace orbslam {
 
 /// A corner of the last frame that was found in this one.
 struct CornerMatch {
-  Eigen::Vector3f x_previous;   // metres, camera frame of the last colour image
-  Eigen::Vector2f pixel;        // grey grid, in this image
-};
-
-struct PoseFromCornersOptions {
-  int num_draws = 80;         // with 60 % outliers 3 of 3 are inliers in 99 % of 80 draws
-  float inlier_px = 2.f;      // grey px: 3 sigma of the flow and of the depth's parallax
-  int min_inliers = 12;       // twice the unknowns
+  Eigen::Vector3f x_previous;  // metres, camera frame of the last colour image
+  Eigen::Vector2f pixel;       // grey grid, in this image
 };
 
 struct PoseFromCorners {

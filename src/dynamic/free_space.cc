@@ -37,14 +37,16 @@ void AddVotes(const GridCamera& camera, const cv::Mat1f& depth_m, const Referenc
 }  // namespace
 
 FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_m,
-                               std::span<const ReferenceView* const> references, const FreeSpaceOptions& options) {
+                               std::span<const ReferenceView* const> references,
+                               const FreeSpaceOptions& options) {
   FreeSpaceVotes votes;
   votes.num_free = cv::Mat1b::zeros(depth_m.size());
   votes.num_static = cv::Mat1b::zeros(depth_m.size());
   votes.suspicious = cv::Mat1b::zeros(depth_m.size());
   votes.confirmed_static = cv::Mat1b::zeros(depth_m.size());
   ProjectedRow row(camera.width);
-  for (const ReferenceView* reference : references) AddVotes(camera, depth_m, *reference, options, &row, &votes);
+  for (const ReferenceView* reference : references)
+    AddVotes(camera, depth_m, *reference, options, &row, &votes);
 
   cv::Mat1b candidate = cv::Mat1b::zeros(depth_m.size());
   for (int i = 0; i < static_cast<int>(depth_m.total()); ++i) {

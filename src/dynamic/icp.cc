@@ -14,7 +14,7 @@ using Matrix6f = Eigen::Matrix<float, 6, 6>;
 using Vector6f = Eigen::Matrix<float, 6, 1>;
 
 struct Sums {
-  float hessian[21] = {};   // upper triangle, row by row
+  float hessian[21] = {};  // upper triangle, row by row
   float gradient[6] = {};
   int num_pairs = 0, num_fitting = 0;
 
@@ -31,16 +31,17 @@ struct Sums {
 /// Adds the pairs of all source points with one target, at the given pose. The perturbation (rotation w,
 /// translation v) acts in the source frame: x -> x + w x x + v.
 void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Mat1b* ignored_source,
-              const IcpTarget& target, const Rigid3d& target_from_source, const IcpOptions& options, Sums* sums) {
+              const IcpTarget& target, const Rigid3d& target_from_source, const IcpOptions& options,
+              int stride, Sums* sums) {
   const Eigen::Matrix3f r = target_from_source.RotationMatrix().cast<float>();
   const Eigen::Vector3f t = target_from_source.translation.cast<float>();
   const WorkingFrame& frame = *target.frame;
   const float inverse_fx = 1 / camera.fx, inverse_fy = 1 / camera.fy;
   const float gate2 = options.gate_sigma * options.gate_sigma;
-  for (int v = options.stride / 2; v < camera.height; v += options.stride) {
+  for (int v = stride / 2; v < camera.height; v += stride) {
     const float* depth = source.depth_m[v];
     const float b = (static_cast<float>(v) - camera.cy) * inverse_fy;
-    for (int u = options.stride / 2; u < camera.width; u += options.stride) {
+    for (int u = stride / 2; u < camera.width; u += stride) {
       const float z = depth[u];
       if (!(z > 0) || (ignored_source != nullptr && (*ignored_source)(v, u) != 0)) continue;
       const float x = (static_cast<float>(u) - camera.cx) * inverse_fx * z, y = b * z;
@@ -51,7 +52,8 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
       const float inverse_qz = 1 / qz;
       const float pu = qx * inverse_qz * camera.fx + camera.cx + 0.5f;
       const float pv = qy * inverse_qz * camera.fy + camera.cy + 0.5f;
-      if (pu < 0 || pv < 0 || pu >= static_cast<float>(camera.width) || pv >= static_cast<float>(camera.height))
+      if (pu < 0 || pv < 0 || pu >= static_cast<float>(camera.width) ||
+          pv >= static_cast<float>(camera.height))
         continue;
       const int tu = static_cast<int>(pu), tv = static_cast<int>(pv);
       const float nz = frame.normal_z(tv, tu), tz = frame.depth_m(tv, tu);
@@ -85,8 +87,10 @@ Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const IcpOptio
     gradient[a] = sums.gradient[a];
     for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = sums.hessian[k++];
   }
-  const auto rotation_weight = static_cast<float>(1 / (options.prior_rotation_rad * options.prior_rotation_rad));
-  const auto translation_weight = static_cast<float>(1 / (options.prior_translation_m * options.prior_translation_m));
+  const auto rotation_weight =
+      static_cast<float>(1 / (options.prior_rotation_rad * options.prior_rotation_rad));
+  const auto translation_weight =
+      static_cast<float>(1 / (options.prior_translation_m * options.prior_translation_m));
   const Eigen::Vector3f w = So3Log(prior_from_source.rotation).cast<float>();
   const Eigen::Vector3f v = prior_from_source.translation.cast<float>();
   for (int a = 0; a < 3; ++a) {
@@ -105,14 +109,15 @@ IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const
   result.base_from_source = base_from_source_prior;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     Sums sums;
+    const int stride = iteration < 2 && options.iterations > 3 ? 2 * options.stride : options.stride;
     for (const IcpTarget& target : targets)
-      AddPairs(camera, source, ignored_source, target, target.target_from_base * result.base_from_source, options,
-               &sums);
+      AddPairs(camera, source, ignored_source, target, target.target_from_base * result.base_from_source,
+               options, stride, &sums);
     result.num_pairs = sums.num_pairs, result.num_fitting = sums.num_fitting;
     const Rigid3d prior_from_source = Inverse(base_from_source_prior) * result.base_from_source;
     const Eigen::Matrix<double, 6, 1> step = Step(sums, prior_from_source, options).cast<double>();
     result.base_from_source = result.base_from_source * Rigid3d{So3Exp(step.head<3>()), step.tail<3>()};
-    if (step.head<3>().norm() < 1e-5 && step.tail<3>().norm() < 2e-5) break;
+    if (stride == options.stride && step.head<3>().norm() < 1e-5 && step.tail<3>().norm() < 2e-5) break;
   }
   return result;
 }

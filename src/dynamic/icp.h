@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "orbslam/dynamic/dynamic_detector_options.h"
 #include "orbslam/geometry/rigid3.h"
 #include "working_frame.h"
 
@@ -16,19 +17,10 @@ struct IcpTarget {
   Rigid3d target_from_base;            // base: the frame in which the unknown pose is expressed
 };
 
-struct IcpOptions {
-  int stride = 2;                         // cells between the points used
-  int iterations = 5;                     //
-  double prior_translation_m = 0.004;     // standard deviation of the initial pose ...
-  double prior_rotation_rad = 0.006;      // ... about each axis
-  float max_distance_m = 0.10f;           // of a pair along the normal: farther is another surface
-  float gate_sigma = 3.f;                 // Tukey's scale and the gate of a fit, sigma of the residual
-};
-
 struct IcpResult {
   Rigid3d base_from_source;
-  int num_pairs = 0;     // points that met a surface
-  int num_fitting = 0;   // of them, within the gate
+  int num_pairs = 0;    // points that met a surface
+  int num_fitting = 0;  // of them, within the gate
   double FitShare() const { return num_pairs > 0 ? static_cast<double>(num_fitting) / num_pairs : 0; }
 };
 

@@ -7,8 +7,8 @@
 namespace orbslam {
 namespace {
 
-constexpr int kBlock = 8;            // cells, side of the blocks in which shifts are averaged
-constexpr int kPixelsPerCell = 2;    // grey px
+constexpr int kBlock = 8;          // cells, side of the blocks in which shifts are averaged
+constexpr int kPixelsPerCell = 2;  // grey px
 
 }  // namespace
 
@@ -26,7 +26,8 @@ cv::Mat2f BackwardMotion(cv::Size cells, const std::vector<TrackedCorner>& corne
     const cv::Point2f shift = (corner.previous - corner.current) / static_cast<float>(kPixelsPerCell);
     sums(v, u) += cv::Vec3f(shift.x, shift.y, 1);
   }
-  // Normalised convolution (Knutsson and Westin 1993), wide and thin beneath the narrow one: near corners rule.
+  // Normalised convolution (Knutsson and Westin 1993), wide and thin beneath the narrow one: near corners
+  // rule.
   cv::Mat3f narrow, wide;
   cv::GaussianBlur(sums, narrow, {5, 5}, 0.8, 0.8, cv::BORDER_CONSTANT);
   cv::GaussianBlur(sums, wide, {31, 31}, 5, 5, cv::BORDER_CONSTANT);

@@ -9,7 +9,8 @@ void ProjectRow(const GridCamera& camera, const Rigid3d& other_from_this, int v,
   const Eigen::Vector3f t = other_from_this.translation.cast<float>();
   const float b = (static_cast<float>(v) - camera.cy) / camera.fy, inverse_fx = 1 / camera.fx;
   // A ray's direction in the other view is linear in u.
-  const Eigen::Vector3f first = r * Eigen::Vector3f(-camera.cx * inverse_fx, b, 1), step = r.col(0) * inverse_fx;
+  const Eigen::Vector3f first = r * Eigen::Vector3f(-camera.cx * inverse_fx, b, 1),
+                        step = r.col(0) * inverse_fx;
   const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
   int* index = row->index.data();
   float* out = row->depth_m.data();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
+#include "orbslam/dynamic/motion_histogram.h"
 #include "orbslam/geometry/rigid3.h"
 #include "working_frame.h"
 
@@ -23,8 +24,9 @@ struct ReferenceView {
   cv::Mat1b moving;  // cells that were masked then
   Rigid3d reference_from_current;
   int age_frames = 0;
-  bool is_keyframe = false;
-  bool is_aligned = true;  // its own alignment with the present frame succeeded
+  bool is_aligned = true;                       // its own alignment with the present frame succeeded
+  int frames_unaligned = 0;                     // in a row, until now
+  std::shared_ptr<const HistogramCloud> cloud;  // for the motion histogram; may be null
 };
 
 }  // namespace orbslam

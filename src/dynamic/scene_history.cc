@@ -21,14 +21,18 @@ void SceneHistory::Advance(const Rigid3d& previous_from_current) {
 void SceneHistory::AlignKeyframes(const WorkingFrame& current, const cv::Mat1b* ignored) {
   IcpOptions icp;
   icp.stride = options_.stride, icp.iterations = options_.iterations;
-  icp.prior_translation_m = options_.prior_translation_m, icp.prior_rotation_rad = options_.prior_rotation_rad;
+  icp.prior_translation_m = options_.prior_translation_m,
+  icp.prior_rotation_rad = options_.prior_rotation_rad;
   for (ReferenceView& view : keyframes_) {
     const IcpTarget target{view.frame.get(), &view.moving, {}};
-    const IcpResult result = AlignDepth(camera_, current, ignored, {&target, 1}, view.reference_from_current, icp);
+    const IcpResult result =
+        AlignDepth(camera_, current, ignored, {&target, 1}, view.reference_from_current, icp);
     view.is_aligned = result.num_pairs >= options_.min_pairs && result.FitShare() >= options_.min_fit_share;
+    view.frames_unaligned = view.is_aligned ? 0 : view.frames_unaligned + 1;
     if (view.is_aligned) view.reference_from_current = result.base_from_source;
   }
-  std::erase_if(keyframes_, [](const ReferenceView& view) { return !view.is_aligned; });
+  std::erase_if(keyframes_,
+                [&](const ReferenceView& view) { return view.frames_unaligned > options_.max_unaligned; });
 }
 
 std::vector<const ReferenceView*> SceneHistory::FreeSpaceReferences() const {
@@ -36,19 +40,22 @@ std::vector<const ReferenceView*> SceneHistory::FreeSpaceReferences() const {
   for (const int num_back : {2, 4})
     if (const ReferenceView* view = Back(num_back)) references.push_back(view);
   for (const ReferenceView& view : keyframes_)
-    if (view.age_frames > 4) references.push_back(&view);
+    if (view.age_frames > 4 && view.is_aligned) references.push_back(&view);
   return references;
 }
 
-void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving) {
+void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving,
+                       std::shared_ptr<const HistogramCloud> cloud) {
   ReferenceView view;
   view.envelope = MakeEnvelope(frame->depth_m);
   view.frame = std::move(frame);
   view.moving = moving;
+  view.cloud = std::move(cloud);
   recent_.push_front(view);
   if (static_cast<int>(recent_.size()) > options_.num_recent) recent_.pop_back();
-  if (++frames_since_keyframe_ >= options_.keyframe_interval) {
+  if (options_.max_keyframes > 0 && ++frames_since_keyframe_ >= options_.keyframe_interval) {
     keyframes_.push_front(std::move(view));
+    keyframes_.front().cloud = nullptr;
     if (static_cast<int>(keyframes_.size()) > options_.max_keyframes) keyframes_.pop_back();
     frames_since_keyframe_ = 0;
   }

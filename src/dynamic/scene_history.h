@@ -5,20 +5,10 @@
 #include <vector>
 
 #include "icp.h"
+#include "orbslam/dynamic/dynamic_detector_options.h"
 #include "reference_view.h"
 
 namespace orbslam {
-
-struct ReferenceOptions {
-  int num_recent = 8;             // frames kept one by one
-  int keyframe_interval = 10;     // frames: a person walks his own width in a third of a second
-  int max_keyframes = 8;          // of the last 2.7 s
-  double prior_translation_m = 0.01;    // standard deviations of a carried pose,
-  double prior_rotation_rad = 0.010;    // before its own alignment
-  int stride = 4, iterations = 3;       // of that alignment
-  double min_fit_share = 0.5;     // of the paired points within 3 sigma; below, the reference is dropped
-  int min_pairs = 60;             // ten for each unknown
-};
 
 /// The frames of the past that the present one is judged against, each with its pose relative to the present:
 /// the last few, and keyframes.
@@ -35,7 +25,9 @@ class SceneHistory {
   void AlignKeyframes(const WorkingFrame& current, const cv::Mat1b* ignored);
   /// t-2, t-4 and the keyframes.
   std::vector<const ReferenceView*> FreeSpaceReferences() const;
-  void Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving);
+  /// moving: its cells that were masked. cloud: for the motion histogram, may be null.
+  void Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving,
+           std::shared_ptr<const HistogramCloud> cloud);
   void Clear();
 
  private:

@@ -80,12 +80,13 @@ FrameReducer::FrameReducer(const PinholeCamera& camera)
 
   std::vector<cv::Point2f> pixels;
   for (int v = 0; v < camera.height; ++v)
-    for (int u = 0; u < camera.width; ++u)
-      pixels.emplace_back(static_cast<float>(u), static_cast<float>(v));
+    for (int u = 0; u < camera.width; ++u) pixels.emplace_back(static_cast<float>(u), static_cast<float>(v));
   pixels = camera.Undistort(pixels);
   for (size_t i = 0; i < pixels.size(); ++i) {
-    const int u = std::clamp(cvFloor((pixels[i].x + 0.5f) / static_cast<float>(step)), 0, grids_.cell.width - 1);
-    const int v = std::clamp(cvFloor((pixels[i].y + 0.5f) / static_cast<float>(step)), 0, grids_.cell.height - 1);
+    const int u =
+        std::clamp(cvFloor((pixels[i].x + 0.5f) / static_cast<float>(step)), 0, grids_.cell.width - 1);
+    const int v =
+        std::clamp(cvFloor((pixels[i].y + 0.5f) / static_cast<float>(step)), 0, grids_.cell.height - 1);
     raw_to_cell_(static_cast<int>(i) / camera.width, static_cast<int>(i) % camera.width) =
         v * grids_.cell.width + u;
   }
@@ -96,7 +97,8 @@ FrameReducer::FrameReducer(const PinholeCamera& camera)
   for (int v = 0; v < map.rows; ++v)
     for (int u = 0; u < map.cols; ++u) {
       const Eigen::Vector2d raw = RawPixel(camera, grids_.gray_step, u, v);
-      map(v, u) = {static_cast<float>((raw.x() - shift) / half), static_cast<float>((raw.y() - shift) / half)};
+      map(v, u) = {static_cast<float>((raw.x() - shift) / half),
+                   static_cast<float>((raw.y() - shift) / half)};
     }
   cv::convertMaps(map, cv::noArray(), gray_map_, gray_map_fraction_, CV_16SC2);
 }
@@ -106,8 +108,8 @@ WorkingFrame FrameReducer::Reduce(const RgbdImage& image) const {
   ORBSLAM_CHECK(image.gray.size() == raw_to_cell_.size() && image.depth_m.size() == raw_to_cell_.size());
   WorkingFrame frame;
   frame.timestamp_s = image.timestamp_s;
-  const cv::Mat used = image.gray(
-      cv::Rect(0, 0, grids_.gray.width * grids_.gray_step, grids_.gray.height * grids_.gray_step));
+  const cv::Mat used =
+      image.gray(cv::Rect(0, 0, grids_.gray.width * grids_.gray_step, grids_.gray.height * grids_.gray_step));
   cv::Mat halved;
   cv::resize(used, halved, {grids_.gray.width, grids_.gray.height}, 0, 0, cv::INTER_AREA);
   if (gray_map_.empty()) {

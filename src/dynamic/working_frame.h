@@ -19,7 +19,8 @@ struct GridCamera {
   }
 };
 
-/// The cameras of the two grids in which the detector works: grey about 320 wide, depth cells twice as coarse.
+/// The cameras of the two grids in which the detector works: grey about 320 wide, depth cells twice as
+/// coarse.
 struct WorkingGrids {
   int gray_step = 1, cell_step = 2;  // raw px to a grey pixel, to a cell
   GridCamera gray, cell;
@@ -27,12 +28,13 @@ struct WorkingGrids {
   explicit WorkingGrids(const PinholeCamera& camera);
 };
 
-/// A frame as the detector sees it: undistorted and reduced. Cell (i, j) covers grey pixels 2i..2i+1, 2j..2j+1.
+/// A frame as the detector sees it: undistorted and reduced. Cell (i, j) covers grey pixels 2i..2i+1,
+/// 2j..2j+1.
 struct WorkingFrame {
   double timestamp_s = 0;
-  cv::Mat1b gray;                   // grey grid
-  std::vector<cv::Mat1f> pyramid;   // gray and two halvings of it; grey levels
-  cv::Mat1f depth_m;                // cells; 0: none
+  cv::Mat1b gray;                          // grey grid
+  std::vector<cv::Mat1f> pyramid;          // gray and two halvings of it; grey levels
+  cv::Mat1f depth_m;                       // cells; 0: none
   cv::Mat1f normal_x, normal_y, normal_z;  // cells; unit, towards the camera; all 0: none
   int num_depth_cells = 0;
 };

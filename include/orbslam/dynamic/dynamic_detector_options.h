@@ -3,11 +3,146 @@
 
 namespace orbslam {
 
-/// kPaper: the published algorithm alone (with ego-motion compensation). kFull: all evidence.
+// All parameters of DynamicDetector. A grey pixel is 1/320 of the image's width, a cell twice that. "sigma"
+// is that of the quantity's own noise: depth after DepthModel::SigmaM. Log-odds are natural; + 1 makes
+// "moves" 2.7 times as likely. Where a source is not named, the number follows from the reason given.
+
+/// kPaper: the published algorithm alone, with ego-motion compensation. kFull: all evidence.
 enum class DetectorMode { kFull, kPaper };
+
+/// Corners that are followed from frame to frame.
+struct CornerOptions {
+  int columns = 16, rows = 12;  // cells of the grid over the image in which corners compete
+  int per_cell = 2;             // strongest corners kept in each: 384 at most
+  int fast_threshold = 10;      // grey levels: 3 sigma of the difference of two pixels of a reduced image
+};
+
+/// Lucas-Kanade on patches of 12 x 12 grey pixels.
+struct FlowOptions {
+  int max_iterations = 8;            // Gauss-Newton steps a level
+  float min_step_px = 0.03f;         // converged: a tenth of the noise of the flow
+  float min_texture = 2.5f;          // smaller eigenvalue of the mean structure tensor, (grey levels / px)^2
+  float max_difference_grey = 20.f;  // mean absolute difference of the patches in the end
+};
+
+/// The camera's motion from corners.
+struct PoseFromCornersOptions {
+  int num_draws = 80;     // with 60 % outliers, 99 % certain to draw three inliers at least once
+  float inlier_px = 2.f;  // grey px: 3 sigma of the flow and of the depth's parallax
+  int min_inliers = 12;   // twice the unknowns, each giving two equations
+};
+
+/// The depth camera's motion.
+struct IcpOptions {
+  int stride = 2;                      // cells between the points used, in the last iterations
+  int iterations = 5;                  // the first two with twice the stride
+  double prior_translation_m = 0.004;  // sigma of the initial pose: colour and depth are 15 ms apart,
+  double prior_rotation_rad = 0.006;   // at 0.25 m/s and 0.4 rad/s
+  float max_distance_m = 0.10f;        // of a pair along the normal: farther is another surface
+  float gate_sigma = 3.f;              // what fits; the weights (Tukey's biweight) end at twice that
+};
+
+struct CameraMotionOptions {
+  CornerOptions corners;
+  FlowOptions flow;
+  PoseFromCornersOptions pose;
+  IcpOptions icp;
+  int far_target = 8;          // frames back: second target of the alignment, against drift
+  double min_fit_share = 0.5;  // of the paired depth within the gate; below, the motion is not trusted
+};
+
+/// Frames of the past against which the present one is judged.
+struct ReferenceOptions {
+  int num_recent = 8;                 // kept one by one: the histogram's rows
+  int keyframe_interval = 10;         // frames: a person walks half a metre, more than his depth
+  int max_keyframes = 8;              // 2.7 s: how long one who stands still stays masked
+  double prior_translation_m = 0.01;  // sigma of a carried pose before its own alignment
+  double prior_rotation_rad = 0.010;
+  int stride = 4, iterations = 3;  // of that alignment
+  double min_fit_share = 0.5;      // of the paired points within 3 sigma; else it is not asked
+  int min_pairs = 60;              // ten for each unknown
+  int max_unaligned = 30;          // frames after which it is forgotten: 1 s, someone walks past
+};
+
+/// Free space: what stands where a reference saw through, has moved there.
+struct FreeSpaceOptions {
+  float gate_sigma = 4.f;            // of the depth noise: one false vote in 30000
+  float margin_m = 0.01f;            // systematic depth error between two views at 0 m ...
+  float margin_per_metre = 0.3f;     // ... and its growth, share a metre of depth
+  float drift_m = 0.0004f;           // growth of the margin a frame of age: what the alignment leaves
+  float min_votes = 0.9f;            // free less half of the static votes
+  int min_suspicious_neighbors = 4;  // of the 3 x 3 cells: noise and edges are thinner
+};
+
+struct SegmentationOptions {
+  int min_cells = 20;  // the published 200 points are of a voxel grid; a hand at 2 m is 25 cells
+};
+
+/// Evidence about a cluster, log-odds.
+struct FusionOptions {
+  bool use_free_space = true, use_carry = true, use_klt_residual = true, use_attachment = true,
+       use_histogram = true;
+  float prior = -1.5f;             // that something moves of which no reference can say anything: one in five
+  float free_share = 0.22f;        // of suspicious among judged cells: no evidence either way
+  float free_gain = 10.f;          // a unit of that share
+  float min_judged_share = 0.15f;  // of a cluster, that must be judged for the share to count in full
+  float carry_gain = 0.6f;         // of the log-odds of what was there in the last frame
+  float corner_gate_px = 3.f;      // grey px, 3 sigma: a corner that is farther from its static place moves
+  float corner_gain = 0.5f;        // a moving corner; a resting one counts a fifth, against
+  float max_corner = 1.5f;         // bound of the corners' part
+  float attachment_gain = 3.f;     // against, a border that continues into static surfaces all round
+  float free_attachment = 0.4f;    // share of such border that is normal: feet, a hand on the table
+  float histogram_gain = 0.5f;     // a unit of (line integral / tau - 1)
+  float max_histogram = 1.f;       // bound of the histogram's part
+  float undecided = 2.f;           // log-odds within which the histogram is asked
+};
+
+/// Cells without depth, log-odds a frame.
+struct GrowthOptions {
+  bool use_growth = true;        // into cells without depth at all
+  bool use_background = true;    // appearance against the static scene that references let expect
+  bool use_corners = true;       // flow against the camera's motion
+  int max_steps = 12;            // cells, how far from a moving cell: a tenth of the image's height
+  int free_steps = 3;            // silhouettes that the sensor loses
+  float similar_gray = 15.f;     // grey levels between neighbours of one thing
+  float noise_gray = 12.f;       // grey levels: 3 sigma of noise and of what the reduction leaves
+  float prior = -0.15f;          // without evidence: things rest
+  float differs = 0.6f;          // looks other than the static scene there;
+  float agrees = -0.6f;          // like it. Both small, for errors last from frame to frame
+  float corner_moves = 0.8f;     // a corner nearby does not move as the static scene,
+  float corner_rests = -0.5f;    // does
+  float contact = 0.5f;          // connected to a moving cell that has depth
+  float memory = 0.9f;           // share of the last frame's that is kept: a third of a second
+  float near_contact = 1.f;      // when growing: within free_steps of a moving cell,
+  float similar_contact = 0.3f;  // beyond it, of similar grey,
+  float other_contact = -1.5f;   // not of similar grey
+};
+
+/// The 9-frame motion histogram (motion_histogram.h).
+struct HistogramOptions {
+  bool use_velocity = true;    // of the objects, for the report
+  int max_clusters = 3;        // a frame, largest first: bounds the time
+  int min_cells = 50;          // the published 200 points, at the cloud's stride
+  int stride = 2;              // cells between the cloud's points
+  float max_speed_mps = 1.5f;  // a brisk walk
+};
+
+/// When not to mask.
+struct FailOpenOptions {
+  int max_untrusted_frames = 15;   // half a second on what was moving before; then nothing is masked
+  double max_masked_share = 0.95;  // of the image: nothing would be left to hold on to
+};
 
 struct DynamicDetectorOptions {
   DetectorMode mode = DetectorMode::kFull;
+  CameraMotionOptions camera_motion;
+  ReferenceOptions references;
+  FreeSpaceOptions free_space;
+  SegmentationOptions segmentation;
+  FusionOptions fusion;
+  GrowthOptions growth;
+  HistogramOptions histogram;
+  FailOpenOptions fail_open;
 };
 
 }  // namespace orbslam

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "camera_motion.h"
+#include "free_space.h"
+#include "orbslam/dynamic/dynamic_detector_options.h"
+#include "segmenter.h"
+
+namespace orbslam {
+
+/// What is known of a cluster.
+struct ClusterFacts {
+  int num_cells = 0;
+  int num_judged = 0;      // cells of which some reference can say something
+  int num_suspicious = 0;  // cells in space that was seen empty
+  int num_border = 0;      // cells with a neighbour outside the cluster
+  int num_attached = 0;    // of them, next to a confirmed static cell of the same surface
+  float carried = 0;       // mean log-odds carried over from the last frame
+  int num_corners = 0, num_moving_corners = 0;  // followed; not where a static point would be
+};
+
+std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
+                                      const FreeSpaceVotes& votes, const cv::Mat1f& carried,
+                                      std::span<const TrackedCorner> corners, float corner_gate_px);
+
+/// One source of evidence: how much it changes the log-odds that a cluster moves.
+class Evidence {
+ public:
+  virtual ~Evidence() = default;
+  virtual float LogOdds(const ClusterFacts& facts) const = 0;
+};
+
+/// Those that the options switch on.
+std::vector<std::unique_ptr<Evidence>> MakeEvidence(const FusionOptions& options);
+
+/// The sum of all evidence and the prior.
+float FuseEvidence(std::span<const std::unique_ptr<Evidence>> sources, const ClusterFacts& facts,
+                   const FusionOptions& options);
+
+/// What a line integral, in units of tau, adds.
+float HistogramLogOdds(double integral_over_tau, const FusionOptions& options);
+
+}  // namespace orbslam

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "full_detector.h"
+
+#include <algorithm>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+
+#include "depthless_growth.h"
+#include "motion_field.h"
+
+namespace orbslam {
+namespace {
+
+constexpr float kMinLogOdds = -2.f,
+                kMaxLogOdds = 4.f;  // of what is carried on: a few frames must change a mind
+
+}  // namespace
+
+FullDetector::FullDetector(const PinholeCamera& camera, const DynamicDetectorOptions& options)
+    : options_(options),
+      reducer_(camera),
+      history_(reducer_.grids().cell, options.references),
+      motion_estimator_(reducer_.grids(), options.camera_motion),
+      evidence_(MakeEvidence(options.fusion)) {}
+
+DynamicMask FullDetector::Process(const RgbdImage& image) {
+  DynamicMask result;
+  result.frame_id = image.id;
+  const auto frame = std::make_shared<const WorkingFrame>(reducer_.Reduce(image));
+  if (history_.Back(1) == nullptr) {
+    Begin(frame, &result);
+    return result;
+  }
+  Judgement judgement = EstimateMotion(*frame, image.id.value);
+  const auto references =
+      judgement.is_trusted ? history_.FreeSpaceReferences() : std::vector<const ReferenceView*>();
+  judgement.votes = VoteOnFreeSpace(reducer_.grids().cell, frame->depth_m, references, options_.free_space);
+  judgement.segmentation =
+      SegmentCells(frame->depth_m, judgement.votes.confirmed_static == 0, options_.segmentation.min_cells);
+  const HistogramWindow window(reducer_.grids().cell, history_, *frame, options_.histogram);
+  JudgeClusters(*frame, window, &judgement);
+  JudgeDepthless(*frame, references, &judgement);
+
+  result.fail_open_reason = FailOpenReason(judgement);
+  if (!result.fail_open_reason.empty()) judgement.moving.setTo(0), judgement.log_odds.setTo(0);
+  Report(*frame, judgement, &result);
+  log_odds_ = judgement.log_odds;
+  history_.Add(frame, judgement.moving, window.current_cloud());
+  return result;
+}
+
+void FullDetector::Begin(std::shared_ptr<const WorkingFrame> frame, DynamicMask* result) {
+  result->fail_open_reason = "there is no earlier frame to compare with";
+  const cv::Mat1b nothing = cv::Mat1b::zeros(frame->depth_m.size());
+  log_odds_ = cv::Mat1f::zeros(frame->depth_m.size());
+  auto cloud = MakeHistogramCloud(reducer_.grids().cell, frame->depth_m, options_.histogram.stride);
+  history_.Add(std::move(frame), nothing, std::move(cloud));
+}
+
+FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, uint64_t seed) {
+  Judgement judgement;
+  judgement.motion = motion_estimator_.Estimate(history_, frame, seed);
+  judgement.is_trusted = judgement.motion.failure.empty();
+  untrusted_frames_ = judgement.is_trusted ? 0 : untrusted_frames_ + 1;
+  history_.Advance(Inverse(judgement.motion.depth_current_from_previous));
+  history_.AlignKeyframes(frame, nullptr);
+  judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.corners);
+  judgement.carried = CarryOver(log_odds_, judgement.shift);
+  return judgement;
+}
+
+void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,
+                                 Judgement* judgement) const {
+  const Segmentation& segmentation = judgement->segmentation;
+  const std::vector<ClusterFacts> facts =
+      GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->motion.corners,
+                  options_.fusion.corner_gate_px);
+  std::vector<float> log_odds;
+  for (const ClusterFacts& cluster : facts)
+    log_odds.push_back(FuseEvidence(evidence_, cluster, options_.fusion));
+  judgement->cluster_motions.resize(facts.size());
+  if (window.IsFull() && judgement->is_trusted) AskHistogram(window, facts, log_odds, judgement);
+
+  judgement->moving = cv::Mat1b::zeros(frame.depth_m.size());
+  judgement->log_odds = cv::Mat1f(frame.depth_m.size(), -1.f);
+  for (size_t c = 0; c < facts.size(); ++c)
+    for (const int cell : segmentation.clusters[c].cells) {
+      judgement->log_odds(cell) = std::clamp(log_odds[c], kMinLogOdds, kMaxLogOdds);
+      if (log_odds[c] > 0) judgement->moving(cell) = 255;
+    }
+}
+
+/// The largest undecided clusters are decided by it; it gives the largest moving ones their velocity.
+void FullDetector::AskHistogram(const HistogramWindow& window, std::span<const ClusterFacts> facts,
+                                std::span<float> log_odds, Judgement* judgement) const {
+  std::vector<int> order(facts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return facts[a].num_cells > facts[b].num_cells; });
+  int asked = 0;
+  for (const int c : order) {
+    if (facts[c].num_cells < options_.histogram.min_cells || asked >= options_.histogram.max_clusters) break;
+    const bool decides = options_.fusion.use_histogram && std::abs(log_odds[c]) < options_.fusion.undecided;
+    if (!decides && !(options_.histogram.use_velocity && log_odds[c] > 0)) continue;
+    const ClusterMotion motion =
+        window.Motion(judgement->segmentation.clusters[c], judgement->motion.corners);
+    judgement->cluster_motions[c] = motion;
+    if (decides) log_odds[c] += HistogramLogOdds(motion.ratio / kPersistentTau, options_.fusion);
+    ++asked;
+  }
+}
+
+void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
+                                  Judgement* judgement) const {
+  constexpr int kContactCells = 3;
+  const cv::Mat rim = cv::Mat::ones(3, 3, CV_8U);
+  if (!options_.growth.use_growth) {
+    cv::dilate(judgement->moving, judgement->moving, rim);
+    return;
+  }
+  BackgroundView background;
+  if (options_.growth.use_background) background = RenderBackground(reducer_.grids().cell, frame, references);
+  const std::vector<TrackedCorner> no_corners;
+  const cv::Mat1f odds =
+      DepthlessLogOdds(frame, judgement->carried, background,
+                       judgement->is_trusted ? judgement->motion.corners : no_corners, options_.growth);
+  cv::Mat1b contact;
+  cv::dilate(judgement->moving, contact, cv::Mat::ones(2 * kContactCells + 1, 2 * kContactCells + 1, CV_8U));
+  const cv::Mat1b grown =
+      GrowIntoDepthless(judgement->moving, frame, odds, judgement->carried, options_.growth);
+  for (int i = 0; i < static_cast<int>(grown.total()); ++i) {
+    if (frame.depth_m(i) > 0) continue;
+    const float support = grown(i) != 0 && contact(i) != 0 ? options_.growth.contact : 0.f;
+    judgement->log_odds(i) = std::clamp(odds(i) + support, kMinLogOdds, kMaxLogOdds);
+  }
+  cv::dilate(grown, judgement->moving, rim);
+}
+
+std::string FullDetector::FailOpenReason(const Judgement& judgement) {
+  if (untrusted_frames_ > options_.fail_open.max_untrusted_frames) {
+    history_.Clear();
+    motion_estimator_.Reset();
+    tracker_.Reset();
+    untrusted_frames_ = 0;
+    return "the camera's motion cannot be told: " + judgement.motion.failure;
+  }
+  const bool is_moving = cv::countNonZero(judgement.moving) > 0;
+  if (!judgement.is_trusted && !is_moving) return judgement.motion.failure;
+  if (cv::countNonZero(judgement.moving) >
+      options_.fail_open.max_masked_share * static_cast<double>(judgement.moving.total()))
+    return "everything seems to move";
+  return {};
+}
+
+void FullDetector::Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result) {
+  const WorkingGrids& grids = reducer_.grids();
+  ObjectTracker::Labelled labelled =
+      tracker_.Update(grids.cell, grids.cell_step * grids.cell_step, judgement.moving, frame,
+                      judgement.log_odds, judgement.shift);
+  std::vector<int> largest(labelled.objects.size(), 0);  // cells of the cluster that stands for the object
+  for (size_t c = 0; c < judgement.cluster_motions.size(); ++c) {
+    const std::vector<int>& cells = judgement.segmentation.clusters[c].cells;
+    const int index = labelled.object_of_cell(cells.front());
+    const ClusterMotion& motion = judgement.cluster_motions[c];
+    if (index < 0 || judgement.log_odds(cells.front()) <= 0 || motion.direction.isZero()) continue;
+    if (static_cast<int>(cells.size()) <= largest[index]) continue;
+    largest[index] = static_cast<int>(cells.size());
+    labelled.objects[index].velocity_mps = motion.velocity_mps.cast<double>();
+    labelled.objects[index].line_integral_ratio = motion.ratio / kPersistentTau;
+  }
+  result->objects = std::move(labelled.objects);
+  if (cv::countNonZero(judgement.moving) > 0) result->mask = reducer_.ToRawMask(judgement.moving);
+}
+
+}  // namespace orbslam

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "background_view.h"
+#include "camera_motion.h"
+#include "evidence.h"
+#include "free_space.h"
+#include "histogram_evidence.h"
+#include "object_tracker.h"
+#include "orbslam/pipeline/dynamic_mask.h"
+#include "scene_history.h"
+#include "segmenter.h"
+#include "working_frame.h"
+
+namespace orbslam {
+
+/// Mode kFull of DynamicDetector.
+class FullDetector {
+ public:
+  FullDetector(const PinholeCamera& camera, const DynamicDetectorOptions& options);
+
+  DynamicMask Process(const RgbdImage& image);
+
+ private:
+  /// What one frame's judgement passes from step to step; grids of cells.
+  struct Judgement {
+    CameraMotion motion;
+    bool is_trusted = false;  // the motion, and with it the references
+    cv::Mat2f shift;          // where moving things were in the last frame
+    cv::Mat1f carried;        // log-odds of the last frame, there
+    FreeSpaceVotes votes;
+    Segmentation segmentation;
+    std::vector<ClusterMotion> cluster_motions;  // of each cluster; zero: not asked
+    cv::Mat1f log_odds;                          // of each cell: it moves
+    cv::Mat1b moving;                            // the mask, with its rim
+  };
+
+  void Begin(std::shared_ptr<const WorkingFrame> frame, DynamicMask* result);
+  Judgement EstimateMotion(const WorkingFrame& frame, uint64_t seed);
+  void JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window, Judgement* judgement) const;
+  void AskHistogram(const HistogramWindow& window, std::span<const ClusterFacts> facts,
+                    std::span<float> log_odds, Judgement* judgement) const;
+  void JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
+                      Judgement* judgement) const;
+  void Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result);
+  std::string FailOpenReason(const Judgement& judgement);
+
+  DynamicDetectorOptions options_;
+  FrameReducer reducer_;
+  SceneHistory history_;
+  CameraMotionEstimator motion_estimator_;
+  ObjectTracker tracker_;
+  std::vector<std::unique_ptr<Evidence>> evidence_;
+  cv::Mat1f log_odds_;  // of the last frame's cells
+  int untrusted_frames_ = 0;
+};
+
+}  // namespace orbslam
