@@ -197,12 +197,11 @@ KeyFrameEvidence Tracking::GatherEvidence(const Frame& frame, int num_inliers,
     ++(frame.points[i].IsValid() ? evidence.num_tracked_close : evidence.num_untracked_close);
   }
   const auto guard = map_->Read();
-  evidence.num_keyframes = guard->num_keyframes();
-  const int min_observations = std::min(evidence.num_keyframes, 2);
   const KeyFrame* reference = guard->Find(guard->Resolve(reference_));
   for (const MapPointId id : reference->points) {
-    if (id.IsValid() && guard->Find(id)->NumObservations() >= min_observations)
-      ++evidence.num_reference_points;
+    if (!id.IsValid()) continue;
+    ++evidence.num_reference_points;
+    evidence.num_shared_points += guard->Find(id)->NumObservations() > 1;
   }
   return evidence;
 }

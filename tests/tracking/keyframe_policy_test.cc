@@ -15,9 +15,9 @@ int Count(Rng* rng, uint32_t below) { return static_cast<int>(rng->Below(below))
 /// Evidence spread over both sides of every threshold.
 KeyFrameEvidence RandomEvidence(Rng* rng) {
   return {.since_last_keyframe_s = rng->Uniform(0, 2),
-          .num_keyframes = Count(rng, 4),
           .num_inliers = Count(rng, 300),
-          .num_reference_points = Count(rng, 400),
+          .num_shared_points = Count(rng, 400),
+          .num_reference_points = Count(rng, 600),
           .num_tracked_close = Count(rng, 200),
           .num_untracked_close = Count(rng, 140),
           .is_mapper_idle = rng->Below(2) == 0};
@@ -26,8 +26,8 @@ KeyFrameEvidence RandomEvidence(Rng* rng) {
 /// Each change makes a keyframe more wanted, never less.
 const std::pair<const char*, std::function<void(KeyFrameEvidence*, Rng*)>> kPushes[] = {
     {"more time", [](KeyFrameEvidence* e, Rng* rng) { e->since_last_keyframe_s += rng->Uniform(0, 2); }},
-    {"an older map", [](KeyFrameEvidence* e, Rng* rng) { e->num_keyframes += Count(rng, 4); }},
-    {"a richer reference", [](KeyFrameEvidence* e, Rng* rng) { e->num_reference_points += Count(rng, 200); }},
+    {"a richer reference", [](KeyFrameEvidence* e, Rng* rng) { e->num_reference_points += Count(rng, 300); }},
+    {"a better known one", [](KeyFrameEvidence* e, Rng* rng) { e->num_shared_points += Count(rng, 200); }},
     {"fewer close points", [](KeyFrameEvidence* e, Rng* rng) { e->num_tracked_close -= Count(rng, 100); }},
     {"more to be made", [](KeyFrameEvidence* e, Rng* rng) { e->num_untracked_close += Count(rng, 100); }},
     {"an idle mapper", [](KeyFrameEvidence* e, Rng*) { e->is_mapper_idle = true; }},
@@ -58,9 +58,9 @@ TEST(KeyFramePolicy, IsMonotoneInEveryPieceOfEvidence) {
 }
 
 /// A well-tracked frame that sees nothing new.
-constexpr KeyFrameEvidence kContent{.num_keyframes = 5,
-                                    .num_inliers = 300,
-                                    .num_reference_points = 320,
+constexpr KeyFrameEvidence kContent{.num_inliers = 300,
+                                    .num_shared_points = 320,
+                                    .num_reference_points = 400,
                                     .num_tracked_close = 200,
                                     .num_untracked_close = 10};
 
@@ -93,12 +93,13 @@ TEST(KeyFramePolicy, BusyMapperIsSparedUnlessItIsUrgent) {
   for (const auto& urgent : {overdue, weak, lacks_close}) EXPECT_TRUE(NeedsKeyFrame(urgent, {}));
 }
 
-TEST(KeyFramePolicy, YoungMapContentsItselfWithFewerTrackedPoints) {
+TEST(KeyFramePolicy, NewTerritoryCountsBeforeAnyOtherKeyFrameHasSeenIt) {
   KeyFrameEvidence evidence = kContent;
-  evidence.num_inliers = 200;
-  evidence.num_keyframes = 1;
+  evidence.num_shared_points = 20;  // a keyframe of new things
+  evidence.num_reference_points = 1000;
+  evidence.num_inliers = 500;
   EXPECT_FALSE(NeedsKeyFrame(evidence, {}));
-  evidence.num_keyframes = 2;
+  evidence.num_inliers = 300;  // fifteen times what is shared, but most of it is out of sight
   EXPECT_TRUE(NeedsKeyFrame(evidence, {}));
 }
 

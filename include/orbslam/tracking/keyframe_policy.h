@@ -8,9 +8,9 @@ namespace orbslam {
 /// What the decision is made from.
 struct KeyFrameEvidence {
   double since_last_keyframe_s = 0;
-  int num_keyframes = 0;
   int num_inliers = 0;           // map points tracked in this frame
-  int num_reference_points = 0;  // points of the reference keyframe that enough others see
+  int num_shared_points = 0;     // points of the reference keyframe that another one sees too
+  int num_reference_points = 0;  // all its points
   int num_tracked_close = 0;     // close keypoints with a map point
   int num_untracked_close = 0;   // close keypoints without
   bool is_mapper_idle = true;

@@ -28,11 +28,13 @@ struct TrackingOptions {
 /// When a frame becomes a keyframe (ORB-SLAM2, section III-E).
 struct KeyFramePolicyOptions {
   double max_interval_s = 1.0;  // at the latest, after so long ...
-  double min_tracked_ratio =
-      0.9;  // ... or if fewer of the reference keyframe's points are tracked (ORB-SLAM2: 0.75;
-            // measured: denser keyframes lower ATE by 6 %); young map:
-  double min_tracked_ratio_young = 0.4;
-  double weak_tracked_ratio = 0.25;  // so few: even if the mapper is busy
+  // ... or if fewer are tracked of those points of the reference keyframe that another keyframe sees too, ...
+  double min_tracked_ratio = 0.75;
+  // ... or of all its points. Few of a new keyframe's points have a second observer yet, and were those all
+  // that count, the camera would leave its points behind before it is noticed. ORB-SLAM2 asks this of its
+  // first keyframe only.
+  double min_tracked_ratio_all = 0.4;
+  double weak_share = 1.0 / 3;  // fewer than this share of either: even if the mapper is busy
   int min_tracked_close = 100;       // fewer close points tracked ...
   int min_untracked_close = 70;      // ... while so many could be made
   int min_inliers = 15;
