@@ -70,6 +70,26 @@ class AttachmentEvidence : public Evidence {
   FusionOptions options_;
 };
 
+/// Is hardly wider than what an alignment that is off by a pixel uncovers at the edge of a static thing.
+class ThicknessEvidence : public Evidence {
+ public:
+  explicit ThicknessEvidence(const FusionOptions& options) : options_(options) {}
+  float LogOdds(const ClusterFacts& facts) const override {
+    const float share = static_cast<float>(facts.num_interior) / static_cast<float>(facts.num_cells);
+    return -options_.max_thin * std::max(0.f, 1 - share / options_.thick_share);
+  }
+
+ private:
+  FusionOptions options_;
+};
+
+bool IsInterior(const cv::Mat1i& labels, int u, int v) {
+  if (u == 0 || v == 0 || u == labels.cols - 1 || v == labels.rows - 1) return false;
+  const int label = labels(v, u);
+  return labels(v - 1, u - 1) == label && labels(v - 1, u + 1) == label && labels(v + 1, u - 1) == label &&
+         labels(v + 1, u + 1) == label;
+}
+
 void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const FreeSpaceVotes& votes,
              int cell, ClusterFacts* facts) {
   const int width = frame.depth_m.cols, height = frame.depth_m.rows;
@@ -85,6 +105,7 @@ void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const 
     attached = attached || (votes.confirmed_static(y, x) != 0 && std::abs(frame.depth_m(y, x) - z) < step);
   }
   facts->num_border += border;
+  facts->num_interior += !border && IsInterior(segmentation.labels, u, v);
   facts->num_attached += attached;
 }
 
@@ -119,6 +140,7 @@ std::vector<std::unique_ptr<Evidence>> MakeEvidence(const FusionOptions& options
   if (options.use_carry) sources.push_back(std::make_unique<CarriedEvidence>(options));
   if (options.use_klt_residual) sources.push_back(std::make_unique<CornerEvidence>(options));
   if (options.use_attachment) sources.push_back(std::make_unique<AttachmentEvidence>(options));
+  if (options.use_thickness) sources.push_back(std::make_unique<ThicknessEvidence>(options));
   return sources;
 }
 

@@ -131,7 +131,8 @@ void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const Ref
   for (int i = 0; i < static_cast<int>(grown.total()); ++i) {
     if (frame.depth_m(i) > 0) continue;
     const float support = grown(i) != 0 && contact(i) != 0 ? options_.growth.contact : 0.f;
-    judgement->log_odds(i) = std::clamp(odds(i) + support, kMinLogOdds, kMaxLogOdds);
+    // Positive only in the mask: what merely looks unexpected must not begin one.
+    judgement->log_odds(i) = std::clamp(odds(i) + support, kMinLogOdds, grown(i) != 0 ? kMaxLogOdds : 0.f);
   }
   cv::dilate(grown, judgement->moving, rim);
 }

@@ -81,10 +81,11 @@ struct SegmentationOptions {
 /// Evidence about a cluster, log-odds.
 struct FusionOptions {
   bool use_free_space = true, use_carry = true, use_klt_residual = true, use_attachment = true,
-       use_histogram = true;
+       use_thickness = true, use_histogram = true;
   float prior = -1.5f;             // that something moves of which no reference can say anything: one in five
   float free_share = 0.22f;        // of suspicious among judged cells: no evidence either way
   float free_gain = 10.f;          // a unit of that share
+  float max_free = 3.f;            // bound of that part: a reference that is off errs in all cells alike
   float min_judged_share = 0.15f;  // of a cluster, that must be judged for the share to count in full
   float carry_gain = 0.6f;         // of the log-odds of what was there in the last frame
   float corner_gate_px = 3.f;      // grey px, 3 sigma: a corner that is farther from its static place moves
@@ -92,6 +93,8 @@ struct FusionOptions {
   float max_corner = 1.5f;         // bound of the corners' part
   float attachment_gain = 3.f;     // against, a border that continues into static surfaces all round
   float free_attachment = 0.4f;    // share of such border that is normal: feet, a hand on the table
+  float max_thin = 2.f;            // against, a cluster nowhere three cells wide,
+  float thick_share = 0.2f;        // up to this share of interior cells (of a strip four cells wide: 0.5)
   float histogram_gain = 0.5f;     // a unit of (line integral / tau - 1)
   float max_histogram = 1.f;       // bound of the histogram's part
   float undecided = 2.f;           // log-odds within which the histogram is asked
