@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "orbslam/io/image_file.h"
 #include "orbslam/io/rgbd_images.h"
 #include "orbslam/io/trajectory.h"
 #include "orbslam/io/tum_sequence.h"
@@ -39,11 +40,14 @@ class MakeSequence : public testing::Test {
 };
 
 TEST_F(MakeSequence, FilesHoldTheFramesAndTheGroundTruth) {
-  ASSERT_EQ(Run("--out " + Path("a") + " --motion loop --frames 4 --width 160 --no-noise --quiet"), 0)
+  ASSERT_EQ(Run("--out " + Path("a") +
+                " --motion loop --script walking --frames 4 --width 160 --no-sensor --quiet"),
+            0)
       << Log();
   EXPECT_EQ(Log(), "");
   SyntheticSequenceOptions options;
   options.motion = Motion::kLoop;
+  options.script = ScriptKind::kWalking;
   options.num_frames = 4;
   options.camera = SyntheticCamera(160);
   const SyntheticSequence expected(options);
@@ -60,6 +64,13 @@ TEST_F(MakeSequence, FilesHoldTheFramesAndTheGroundTruth) {
     EXPECT_EQ(cv::norm(images->bgr, frame.bgr, cv::NORM_INF), 0);
     EXPECT_LE(cv::norm(images->depth_m, frame.depth_m, cv::NORM_INF), 0.501 / 5000);
     EXPECT_NEAR(sequence->entries[i].timestamp_s, frame.timestamp_s, 1e-6);
+    const std::string name = sequence->entries[i].timestamp_text + ".png";
+    for (const auto& [folder, mask] :
+         {std::pair("a/mask/", frame.mask), std::pair("a/mask_moving/", frame.mask_moving)}) {
+      const auto written = ReadGray(Path(folder + name));
+      ASSERT_TRUE(written.ok());
+      EXPECT_EQ(cv::norm(*written, mask, cv::NORM_INF), 0) << folder << name;
+    }
     EXPECT_LT(((*truth)[i].world_from_camera.translation - frame.world_from_camera.translation).norm(), 1e-8);
   }
 }
@@ -75,15 +86,15 @@ TEST_F(MakeSequence, SameSeedGivesTheSameBytes) {
     EXPECT_EQ(*ReadFile(entry.path().string()), *ReadFile(twin.string())) << twin;
     ++files;
   }
-  EXPECT_EQ(files, 3 + 3 + 5);
+  EXPECT_EQ(files, 4 * 3 + 6);
 }
 
 TEST_F(MakeSequence, ErrorsAreOneLineAndExitCodeTwo) {
   const std::string out = "--out " + Path("a");
   ASSERT_TRUE(WriteFileAtomically(Path("file"), "").ok());
   for (const std::string& arguments :
-       {std::string(), out + " --motion waltz", out + " --frames -3", out + " --frames many",
-        out + " --unknown", "--out " + Path("file") + "/x"}) {
+       {std::string(), out + " --motion waltz", out + " --script opera", out + " --frames -3",
+        out + " --frames many", out + " --unknown", "--out " + Path("file") + "/x"}) {
     EXPECT_EQ(Run(arguments), 2) << arguments;
     const std::string log = Log();
     EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1) << log;

@@ -24,8 +24,7 @@ class Recording {
     const SyntheticSequence sequence({.motion = motion,
                                       .num_frames = num_frames * stride,
                                       .camera = camera_,
-                                      .depth_noise = true,
-                                      .image_noise = true,
+                                      .sensor = {.depth_noise = true, .image_noise = true},
                                       .texels_per_metre = width > 320 ? 256.0 : 128.0});
     for (int i = 0; i < sequence.size(); i += stride) frames_.push_back(sequence.Frame(i));
   }

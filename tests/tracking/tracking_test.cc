@@ -20,7 +20,7 @@ SyntheticSequenceOptions SmallSequence() {
   options.motion = Motion::kLoop;
   options.camera = SyntheticCamera(320);
   options.texels_per_metre = 128;
-  options.image_noise = options.depth_noise = true;
+  options.sensor.image_noise = options.sensor.depth_noise = true;
   return options;
 }
 
