@@ -147,9 +147,9 @@ std::string FullDetector::FailOpenReason(const Judgement& judgement) {
   }
   const bool is_moving = cv::countNonZero(judgement.moving) > 0;
   if (!judgement.is_trusted && !is_moving) return judgement.motion.failure;
-  if (cv::countNonZero(judgement.moving) >
-      options_.fail_open.max_masked_share * static_cast<double>(judgement.moving.total()))
-    return "everything seems to move";
+  const double covered = options_.fail_open.max_masked_share * static_cast<double>(judgement.moving.total());
+  covered_frames_ = cv::countNonZero(judgement.moving) > covered ? covered_frames_ + 1 : 0;
+  if (covered_frames_ > options_.fail_open.max_covered_frames) return "everything seems to move";
   return {};
 }
 

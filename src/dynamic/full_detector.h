@@ -55,8 +55,8 @@ class FullDetector {
   CameraMotionEstimator motion_estimator_;
   ObjectTracker tracker_;
   std::vector<std::unique_ptr<Evidence>> evidence_;
-  cv::Mat1f log_odds_;  // of the last frame's cells
-  int untrusted_frames_ = 0;
+  cv::Mat1f log_odds_;                             // of the last frame's cells
+  int untrusted_frames_ = 0, covered_frames_ = 0;  // in a row
 };
 
 }  // namespace orbslam

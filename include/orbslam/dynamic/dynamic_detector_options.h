@@ -133,7 +133,8 @@ struct HistogramOptions {
 /// When not to mask.
 struct FailOpenOptions {
   int max_untrusted_frames = 15;   // half a second on what was moving before; then nothing is masked
-  double max_masked_share = 0.95;  // of the image: nothing would be left to hold on to
+  double max_masked_share = 0.95;  // of the image: nothing is left to hold on to. Someone who passes closely
+  int max_covered_frames = 15;     // does that for half a second; longer, it is our error
 };
 
 struct DynamicDetectorOptions {
