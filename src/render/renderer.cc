@@ -74,14 +74,27 @@ struct Renderer::Impl {
     glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_camera"), 1, GL_FALSE,
                        clip_from_camera.data());
     const GLint transform = glGetUniformLocation(program, "camera_from_mesh");
+    struct Visible {
+      const SceneObject* object;
+      const GpuMesh* mesh;
+      Rigid3d camera_from_mesh;
+      double far_end_m;
+    };
+    std::vector<Visible> visible;
     for (const SceneObject& object : objects) {
       const GpuMesh& mesh = cache.Find(object.mesh);
       const Rigid3d camera_from_mesh = camera_from_world * object.world_from_mesh;
       if (!MayBeSeen(mesh, camera_from_mesh)) continue;
-      glUniformMatrix4fv(transform, 1, GL_FALSE, ToMatrix(camera_from_mesh).data());
-      set_material(object);
-      glBindVertexArray(mesh.array);
-      glDrawElements(GL_TRIANGLES, mesh.num_indices, GL_UNSIGNED_INT, nullptr);
+      visible.push_back(
+          {&object, &mesh, camera_from_mesh, (camera_from_mesh * mesh.center).norm() + mesh.radius});
+    }
+    // Near things first, walls last: what is hidden need not be shaded.
+    std::ranges::stable_sort(visible, {}, &Visible::far_end_m);
+    for (const Visible& item : visible) {
+      glUniformMatrix4fv(transform, 1, GL_FALSE, ToMatrix(item.camera_from_mesh).data());
+      set_material(*item.object);
+      glBindVertexArray(item.mesh->array);
+      glDrawElements(GL_TRIANGLES, item.mesh->num_indices, GL_UNSIGNED_INT, nullptr);
     }
   }
 

@@ -10,35 +10,17 @@ namespace orbslam {
 namespace {
 
 // All vectors are in the camera frame: x right, y down, z forward.
-constexpr char kVertexShader[] = R"(
+
+// Light is computed at the vertices: meshes are finely cut where light varies, and llvmpipe's time goes into
+// pixels. The highlight is Blinn's (SIGGRAPH 1977). A panel's light falls with the cosine at both ends and
+// the distance squared; the constant keeps it finite nearby.
+constexpr char kColorVertexShader[] = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-layout(location = 3) in float light;
+layout(location = 3) in float arriving;
 uniform mat4 camera_from_mesh;
 uniform mat4 clip_from_camera;
-out vec3 x;
-out vec3 n;
-out vec2 texel;
-out float arriving;
-void main() {
-  x = (camera_from_mesh * vec4(position, 1)).xyz;
-  n = mat3(camera_from_mesh) * normal;
-  texel = uv;
-  arriving = light;
-  gl_Position = clip_from_camera * vec4(x, 1);
-}
-)";
-
-// The highlight is Blinn's (SIGGRAPH 1977). A panel's light falls with the cosine at both ends and the
-// distance squared; the constant keeps it finite nearby.
-constexpr char kColorShader[] = R"(
-in vec3 x;
-in vec3 n;
-in vec2 texel;
-in float arriving;
-uniform sampler2D picture;
-uniform vec3 color;
 uniform float shininess;
 uniform float emission;
 uniform vec3 up;
@@ -48,23 +30,54 @@ uniform int num_lamps;
 uniform vec3 lamp_position[6];
 uniform vec3 lamp_direction[6];
 uniform vec3 lamp_power[6];
-out vec4 result;
+out vec2 texel;
+out vec3 diffuse;
+out vec3 highlight;
 void main() {
-  vec3 normal = normalize(n);
-  vec3 base = texture(picture, texel).rgb * color;
-  vec3 light = mix(from_below, from_above, 0.5 + 0.5 * dot(normal, up));
-  vec3 highlight = vec3(0);
+  vec3 x = (camera_from_mesh * vec4(position, 1)).xyz;
+  vec3 n = normalize(mat3(camera_from_mesh) * normal);
+  vec3 light = mix(from_below, from_above, 0.5 + 0.5 * dot(n, up));
+  vec3 gloss = vec3(0);
   vec3 to_eye = -normalize(x);
   for (int i = 0; i < num_lamps; ++i) {
     vec3 offset = lamp_position[i] - x;
     float squared = dot(offset, offset);
     vec3 to_lamp = offset * inversesqrt(squared);
     vec3 power = lamp_power[i] * max(-dot(lamp_direction[i], to_lamp), 0.0) / (squared + 0.2);
-    light += power * max(dot(normal, to_lamp), 0.0);
-    if (shininess > 0.0) highlight += power * pow(max(dot(normal, normalize(to_lamp + to_eye)), 0.0), 48.0);
+    light += power * max(dot(n, to_lamp), 0.0);
+    gloss += power * pow(max(dot(n, normalize(to_lamp + to_eye)), 0.0), 24.0);
   }
-  vec3 linear = base * base * mix(light * arriving, vec3(1), emission) + shininess * arriving * highlight;
-  result = vec4(sqrt(clamp(linear, 0.0, 1.0)), 1);
+  texel = uv;
+  diffuse = mix(light * arriving, vec3(1), emission);
+  highlight = shininess * arriving * gloss;
+  gl_Position = clip_from_camera * vec4(x, 1);
+}
+)";
+
+constexpr char kColorShader[] = R"(
+in vec2 texel;
+in vec3 diffuse;
+in vec3 highlight;
+uniform sampler2D picture;
+uniform vec3 color;
+out vec4 result;
+void main() {
+  vec3 base = texture(picture, texel).rgb * color;
+  result = vec4(sqrt(min(base * base * diffuse + highlight, 1.0)), 1);
+}
+)";
+
+constexpr char kGeometryVertexShader[] = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 camera_from_mesh;
+uniform mat4 clip_from_camera;
+out vec3 x;
+out vec3 n;
+void main() {
+  x = (camera_from_mesh * vec4(position, 1)).xyz;
+  n = mat3(camera_from_mesh) * normal;
+  gl_Position = clip_from_camera * vec4(x, 1);
 }
 )";
 
@@ -97,10 +110,10 @@ GLuint Compile(GLenum kind, const char* body) {
   return shader;
 }
 
-GLuint Link(const char* fragment_shader) {
+GLuint Link(const char* vertex_shader, const char* fragment_shader) {
   const GLuint program = glCreateProgram();
   for (const GLuint shader :
-       {Compile(GL_VERTEX_SHADER, kVertexShader), Compile(GL_FRAGMENT_SHADER, fragment_shader)}) {
+       {Compile(GL_VERTEX_SHADER, vertex_shader), Compile(GL_FRAGMENT_SHADER, fragment_shader)}) {
     glAttachShader(program, shader);
     glDeleteShader(shader);  // goes with the program
   }
@@ -113,7 +126,7 @@ GLuint Link(const char* fragment_shader) {
 
 }  // namespace
 
-GLuint MakeColorProgram() { return Link(kColorShader); }
-GLuint MakeGeometryProgram() { return Link(kGeometryShader); }
+GLuint MakeColorProgram() { return Link(kColorVertexShader, kColorShader); }
+GLuint MakeGeometryProgram() { return Link(kGeometryVertexShader, kGeometryShader); }
 
 }  // namespace orbslam
