@@ -30,7 +30,7 @@ std::vector<SettingValue> EffectiveSettings(const Settings& settings) {
   Settings copy = settings;
   std::vector<SettingValue> values;
   for (const ConfigRow& row : DescribeSettings(&copy)) {
-    std::visit([&](const auto* value) { values.push_back({row.key, *value}); }, row.value);
+    values.push_back({row.key, ValueOf(row)});
   }
   return values;
 }

@@ -116,9 +116,78 @@ Rows LoopRows(bool* closes_loops, LoopOptions* loops) {
   };
 }
 
-Rows DetectorRows(bool* detects_motion) {
+Rows DetectorRows(bool* detects_motion, DynamicDetectorOptions* options) {
   return {
       {"DynamicDetector.enabled", detects_motion, kOptional, {}, "look for moving objects"},
+      {"DynamicDetector.mode",
+       ConfigEnum(&options->mode),
+       kOptional,
+       {},
+       "all evidence, or the published method alone",
+       {"full", "paper"}},
+      {"DynamicDetector.keyFrameInterval",
+       &options->references.keyframe_interval,
+       kOptional,
+       {1, 1000},
+       "frames, between the past views that the present one is held against"},
+      {"DynamicDetector.maxKeyFrames",
+       &options->references.max_keyframes,
+       kOptional,
+       {1, 100},
+       "of these views; with the interval, how long one who pauses stays masked"},
+      {"DynamicDetector.minCells", &options->segmentation.min_cells, kOptional, kSome,
+       "of 4 x 4 px, that an object must have"},
+      {"DynamicDetector.maxSpeed",
+       &options->histogram.max_speed_mps,
+       kOptional,
+       {0, 100, true},
+       "m/s, of objects in the motion histogram"},
+      {"DynamicDetector.maxMaskedShare", &options->fail_open.max_masked_share, kOptional, kShare,
+       "of the image; with more for long, the mask is taken for an error"},
+  };
+}
+
+/// Each source of evidence can be left out, to see what it is worth.
+Rows EvidenceRows(FusionOptions* fusion, GrowthOptions* growth, HistogramOptions* histogram) {
+  return {
+      {"DynamicDetector.useFreeSpace",
+       &fusion->use_free_space,
+       kOptional,
+       {},
+       "stands where a past view saw through"},
+      {"DynamicDetector.useCarry", &fusion->use_carry, kOptional, {}, "moved in the last frame"},
+      {"DynamicDetector.useFlow",
+       &fusion->use_klt_residual,
+       kOptional,
+       {},
+       "corners do not move as the camera says"},
+      {"DynamicDetector.useAttachment",
+       &fusion->use_attachment,
+       kOptional,
+       {},
+       "continues into what is static"},
+      {"DynamicDetector.useThickness", &fusion->use_thickness, kOptional, {}, "is thin, as edges are"},
+      {"DynamicDetector.useHistogram",
+       &fusion->use_histogram,
+       kOptional,
+       {},
+       "nine frames show it displaced"},
+      {"DynamicDetector.useVelocity",
+       &histogram->use_velocity,
+       kOptional,
+       {},
+       "speeds of objects, for the report"},
+      {"DynamicDetector.useGrowth", &growth->use_growth, kOptional, {}, "into pixels without depth"},
+      {"DynamicDetector.useBackground",
+       &growth->use_background,
+       kOptional,
+       {},
+       "there: looks unlike the static scene"},
+      {"DynamicDetector.useCorners",
+       &growth->use_corners,
+       kOptional,
+       {},
+       "there: flow against the camera's motion"},
   };
 }
 
@@ -133,7 +202,9 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(TrackingRows(&settings->tracking, &settings->keyframes));
   add(MappingRows(&settings->mapping));
   add(LoopRows(&settings->closes_loops, &settings->loops));
-  add(DetectorRows(&settings->detects_motion));
+  DynamicDetectorOptions& detector = settings->detector;
+  add(DetectorRows(&settings->detects_motion, &detector));
+  add(EvidenceRows(&detector.fusion, &detector.growth, &detector.histogram));
   return all;
 }
 

@@ -133,7 +133,8 @@ TEST(Settings, SectionsOfTheStagesAreOptionalAndReachTheirOptions) {
   const TempDir dir;
   const std::string yaml = *ReadFile(ConfigPath("TUM3.yaml")) +
                            "Tracking.minInliers: 33\nLocalMapping.maxBundleKeyFrames: 12\n"
-                           "LoopClosing:\n  enabled: 0\n  minInliers: 25\n";
+                           "LoopClosing:\n  enabled: 0\n  minInliers: 25\n"
+                           "DynamicDetector.mode: paper\nDynamicDetector.useGrowth: 0\n";
   std::vector<std::string> warnings;
   const Result<Settings> settings = ReadSettings(dir.Write("a.yaml", yaml), &warnings);
   ASSERT_TRUE(settings.ok()) << settings.error().message;
@@ -143,6 +144,9 @@ TEST(Settings, SectionsOfTheStagesAreOptionalAndReachTheirOptions) {
   EXPECT_EQ(settings->mapping.max_bundle_fixed, MappingOptions().max_bundle_fixed);
   EXPECT_FALSE(settings->closes_loops);
   EXPECT_EQ(settings->loops.min_inliers, 25);
+  EXPECT_EQ(settings->detector.mode, DetectorMode::kPaper);
+  EXPECT_FALSE(settings->detector.growth.use_growth);
+  EXPECT_THAT(EffectiveSettingsYaml(*settings), HasSubstr("DynamicDetector.mode: \"paper\""));
 }
 
 TEST(Settings, ValuesOutOfRangeAreNamed) {
