@@ -13,6 +13,7 @@ namespace orbslam {
 namespace {
 
 constexpr double kBaselineM = 0.075;  // from the projector to the infrared camera
+constexpr double kSensorFx = 535.4;   // px, in which disparity is measured, whatever the size of the picture
 
 float JumpLimitM(float depth_m) { return 0.03f + 0.02f * depth_m; }
 
@@ -73,13 +74,13 @@ void DropShadow(double fx, cv::Mat* depth_m) {
   }
 }
 
-void AddNoise(double fx, Rng* rng, cv::Mat* depth_m) {
+void AddNoise(Rng* rng, cv::Mat* depth_m) {
   constexpr float kStepsPerPx = 8;
-  const auto base = static_cast<float>(fx * kBaselineM) * kStepsPerPx;
+  constexpr auto kBase = static_cast<float>(kSensorFx * kBaselineM) * kStepsPerPx;
   NormalStream normal(rng);
   for (float& depth : cv::Mat_<float>(*depth_m)) {
     const float measured = depth + normal.Next() * static_cast<float>(DepthModel::SigmaM(depth));
-    if (depth > 0) depth = measured > 0 ? base / std::max(1.0f, std::nearbyint(base / measured)) : 0.0f;
+    if (depth > 0) depth = measured > 0 ? kBase / std::max(1.0f, std::nearbyint(kBase / measured)) : 0.0f;
   }
 }
 
@@ -107,7 +108,7 @@ cv::Mat MeasureDepth(const GeometryView& view, const PinholeCamera& camera, cons
   if (effects.depth_absorption) DropAbsorbed(view, rng, &depth_m);
   if (effects.projector_shadow) DropShadow(camera.fx, &depth_m);
   if (effects.depth_edges) RoughenEdges(rng, &depth_m);
-  if (effects.depth_noise) AddNoise(camera.fx, rng, &depth_m);
+  if (effects.depth_noise) AddNoise(rng, &depth_m);
   return depth_m;
 }
 

@@ -43,7 +43,7 @@ TEST(MeasureDepth, WithoutEffectsIsExact) {
 TEST(MeasureDepth, NoiseHasTheModelsSigmaWithTheStepsOfDisparityAndNoBias) {
   for (const float depth_m : {0.6f, 1.0f, 2.0f, 4.0f}) {
     const cv::Mat measured = Measure(Wall(depth_m), {.depth_noise = true});
-    const double base = SyntheticCamera(320).fx * 0.075 * 8, step_m = depth_m * depth_m / base;
+    const double base = SyntheticCamera(640).fx * 0.075 * 8, step_m = depth_m * depth_m / base;
     const double expected = std::hypot(DepthModel::SigmaM(depth_m), step_m / std::sqrt(12.0));
     cv::Mat mean, sigma;
     cv::meanStdDev(measured, mean, sigma);
