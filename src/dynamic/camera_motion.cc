@@ -36,6 +36,15 @@ cv::Point2f Excess(const GridCamera& camera, const Rigid3d& pose, const TrackedC
   return FromSegment(corner.current, at(kFar), at(kNear));
 }
 
+/// What the colour motion says of the depth motion: its own covariance, and that of the time between the
+/// images.
+Eigen::Matrix<double, 6, 6> DepthPriorInformation(const PoseFromCorners& color, const IcpOptions& options) {
+  const Eigen::Matrix<double, 6, 6> of_time =
+      IsotropicInformation(options.prior_rotation_rad, options.prior_translation_m);
+  if (!color.ok) return 0.01 * of_time;  // a guess: ten times less certain
+  return (color.information.inverse() + of_time.inverse()).inverse();
+}
+
 }  // namespace
 
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
@@ -94,8 +103,9 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   std::vector<IcpTarget> targets{{previous.frame.get(), &previous.moving, {}}};
   if (const ReferenceView* far = history.Back(options_.far_target))
     targets.push_back({far->frame.get(), &far->moving, far->reference_from_current});
-  const IcpResult icp = AlignDepth(grids_.cell, current, nullptr, targets,
-                                   Inverse(motion.color_current_from_previous), options_.icp);
+  const IcpResult icp =
+      AlignDepth(grids_.cell, current, nullptr, targets, Inverse(motion.color_current_from_previous),
+                 DepthPriorInformation(from_corners, options_.icp), options_.icp);
   motion.fit_share = icp.FitShare();
   motion.depth_current_from_previous = Inverse(icp.base_from_source);
 

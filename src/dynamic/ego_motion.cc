@@ -34,7 +34,8 @@ float SquaredError(const GridCamera& camera, const Motion& motion, const CornerM
 /// One Gauss-Newton step over the given matches, each weighted by Tukey's biweight of scale (px); 0: all
 /// alike.
 Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matches,
-                const std::vector<int>& used, const Rigid3d& pose, float scale_px) {
+                const std::vector<int>& used, const Rigid3d& pose, float scale_px,
+                Matrix6f* information = nullptr) {
   const Motion motion = ToMotion(pose);
   Matrix6f hessian = Matrix6f::Identity() * 1e-3f;
   Vector6f gradient = Vector6f::Zero();
@@ -58,6 +59,7 @@ Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matche
     hessian.noalias() += weight * jacobian.transpose() * jacobian;
     gradient.noalias() += weight * jacobian.transpose() * error;
   }
+  if (information != nullptr) *information = hessian;
   const Eigen::Matrix<double, 6, 1> step = (-hessian.ldlt().solve(gradient)).cast<double>();
   if (!step.allFinite()) return pose;
   return Rigid3d{So3Exp(step.head<3>()), step.tail<3>()} * pose;
@@ -108,7 +110,10 @@ PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerM
   Rigid3d pose = BestHypothesis(camera, matches, candidates, options, rng);
   std::vector<int> all(matches.size());
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  for (int i = 0; i < 5; ++i) pose = Improve(camera, matches, all, pose, 1.5f * options.inlier_px);
+  Matrix6f information;  // of a flow with an error of 1 px
+  for (int i = 0; i < 5; ++i)
+    pose = Improve(camera, matches, all, pose, 1.5f * options.inlier_px, &information);
+  result.information = information.cast<double>() / (options.sigma_px * options.sigma_px);
   const Motion motion = ToMotion(pose);
   for (size_t i = 0; i < matches.size(); ++i)
     if (SquaredError(camera, motion, matches[i]) < options.inlier_px * options.inlier_px) {

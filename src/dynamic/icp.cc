@@ -79,7 +79,7 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
 }
 
 /// One Gauss-Newton step with the prior; the pose's perturbation.
-Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const IcpOptions& options) {
+Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const Matrix6f& prior_information) {
   Matrix6f hessian;
   Vector6f gradient;
   int k = 0;
@@ -87,24 +87,24 @@ Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const IcpOptio
     gradient[a] = sums.gradient[a];
     for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = sums.hessian[k++];
   }
-  const auto rotation_weight =
-      static_cast<float>(1 / (options.prior_rotation_rad * options.prior_rotation_rad));
-  const auto translation_weight =
-      static_cast<float>(1 / (options.prior_translation_m * options.prior_translation_m));
-  const Eigen::Vector3f w = So3Log(prior_from_source.rotation).cast<float>();
-  const Eigen::Vector3f v = prior_from_source.translation.cast<float>();
-  for (int a = 0; a < 3; ++a) {
-    hessian(a, a) += rotation_weight, gradient[a] += rotation_weight * w[a];
-    hessian(a + 3, a + 3) += translation_weight, gradient[a + 3] += translation_weight * v[a];
-  }
+  Vector6f from_prior;
+  from_prior << So3Log(prior_from_source.rotation).cast<float>(), prior_from_source.translation.cast<float>();
+  hessian += prior_information;
+  gradient += prior_information * from_prior;
   return -hessian.ldlt().solve(gradient);
 }
 
 }  // namespace
 
+Eigen::Matrix<double, 6, 6> IsotropicInformation(double sigma_rotation_rad, double sigma_translation_m) {
+  Eigen::Matrix<double, 6, 1> sigma;
+  sigma << Eigen::Vector3d::Constant(sigma_rotation_rad), Eigen::Vector3d::Constant(sigma_translation_m);
+  return sigma.array().square().inverse().matrix().asDiagonal();
+}
+
 IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const cv::Mat1b* ignored_source,
                      std::span<const IcpTarget> targets, const Rigid3d& base_from_source_prior,
-                     const IcpOptions& options) {
+                     const Eigen::Matrix<double, 6, 6>& prior_information, const IcpOptions& options) {
   IcpResult result;
   result.base_from_source = base_from_source_prior;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
@@ -115,7 +115,8 @@ IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const
                options, stride, &sums);
     result.num_pairs = sums.num_pairs, result.num_fitting = sums.num_fitting;
     const Rigid3d prior_from_source = Inverse(base_from_source_prior) * result.base_from_source;
-    const Eigen::Matrix<double, 6, 1> step = Step(sums, prior_from_source, options).cast<double>();
+    const Eigen::Matrix<double, 6, 1> step =
+        Step(sums, prior_from_source, prior_information.cast<float>()).cast<double>();
     result.base_from_source = result.base_from_source * Rigid3d{So3Exp(step.head<3>()), step.tail<3>()};
     if (stride == options.stride && step.head<3>().norm() < 1e-5 && step.tail<3>().norm() < 2e-5) break;
   }

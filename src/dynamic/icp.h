@@ -24,10 +24,14 @@ struct IcpResult {
   double FitShare() const { return num_pairs > 0 ? static_cast<double>(num_fitting) / num_pairs : 0; }
 };
 
+/// The inverse covariance of independent errors of a rotation and a translation.
+Eigen::Matrix<double, 6, 6> IsotropicInformation(double sigma_rotation_rad, double sigma_translation_m);
+
 /// Point-to-plane alignment (Chen and Medioni 1992) with projective association (Blais and Levine 1995) of a
-/// source frame's cells to one or several targets at once, about a prior.
+/// source frame's cells to one or several targets at once, about a prior. prior_information: inverse
+/// covariance of the prior, rotation (rad) before translation (m), for small motions in the source frame.
 IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const cv::Mat1b* ignored_source,
                      std::span<const IcpTarget> targets, const Rigid3d& base_from_source_prior,
-                     const IcpOptions& options);
+                     const Eigen::Matrix<double, 6, 6>& prior_information, const IcpOptions& options);
 
 }  // namespace orbslam

@@ -26,7 +26,8 @@ void SceneHistory::AlignKeyframes(const WorkingFrame& current, const cv::Mat1b* 
   for (ReferenceView& view : keyframes_) {
     const IcpTarget target{view.frame.get(), &view.moving, {}};
     const IcpResult result =
-        AlignDepth(camera_, current, ignored, {&target, 1}, view.reference_from_current, icp);
+        AlignDepth(camera_, current, ignored, {&target, 1}, view.reference_from_current,
+                   IsotropicInformation(options_.prior_rotation_rad, options_.prior_translation_m), icp);
     view.is_aligned = result.num_pairs >= options_.min_pairs && result.FitShare() >= options_.min_fit_share;
     view.frames_unaligned = view.is_aligned ? 0 : view.frames_unaligned + 1;
     if (view.is_aligned) view.reference_from_current = result.base_from_source;

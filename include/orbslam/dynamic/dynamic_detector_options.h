@@ -28,7 +28,8 @@ struct FlowOptions {
 /// The camera's motion from corners.
 struct PoseFromCornersOptions {
   int num_draws = 80;     // with 60 % outliers, 99 % certain to draw three inliers at least once
-  float inlier_px = 2.f;  // grey px: 3 sigma of the flow and of the depth's parallax
+  float inlier_px = 1.f;  // grey px: 3 sigma of the flow, and what rolling shutter leaves
+  double sigma_px = 0.7;   // grey px, of a corner's place: flow, depth and rolling shutter
   int min_inliers = 12;   // twice the unknowns, each giving two equations
 };
 
@@ -36,8 +37,8 @@ struct PoseFromCornersOptions {
 struct IcpOptions {
   int stride = 2;                      // cells between the points used, in the last iterations
   int iterations = 5;                  // the first two with twice the stride
-  double prior_translation_m = 0.004;  // sigma of the initial pose: colour and depth are 15 ms apart,
-  double prior_rotation_rad = 0.006;   // at 0.25 m/s and 0.4 rad/s
+  double prior_translation_m = 0.002;  // sigma of the initial pose: colour and depth are 15 ms apart, and
+  double prior_rotation_rad = 0.003;   // a hand accelerates by 4 m/s^2 and 6 rad/s^2 in the 30 ms between frames
   float max_distance_m = 0.10f;        // of a pair along the normal: farther is another surface
   float gate_sigma = 3.f;              // what fits; the weights (Tukey's biweight) end at twice that
 };
@@ -56,8 +57,8 @@ struct ReferenceOptions {
   int num_recent = 8;                 // kept one by one: the histogram's rows
   int keyframe_interval = 10;         // frames: a person walks half a metre, more than his depth
   int max_keyframes = 8;              // 2.7 s: how long one who stands still stays masked
-  double prior_translation_m = 0.01;  // sigma of a carried pose before its own alignment
-  double prior_rotation_rad = 0.010;
+  double prior_translation_m = 0.002;  // sigma of a carried pose before its own alignment: of one frame,
+  double prior_rotation_rad = 0.002;   // since it was aligned to the last
   int stride = 4, iterations = 3;  // of that alignment
   double min_fit_share = 0.5;      // of the paired points within 3 sigma; else it is not asked
   int min_pairs = 60;              // ten for each unknown

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "camera_motion.h"
+
+#include <gmock/gmock.h>
+
+#include "rendered_room.h"
+#include "segmenter.h"
+
+namespace orbslam {
+namespace {
+
+using test::RenderedRoom;
+using test::RoomBox;
+using test::Sway;
+
+struct Pair {
+  CameraMotion motion;
+  Rigid3d truth;  // current_from_previous
+};
+
+/// The motion from one rendered frame to the next, after eight frames of history with true poses.
+Pair Estimate(const std::function<std::vector<RoomBox>(uint32_t)>& movers) {
+  constexpr uint32_t kLast = 9;
+  const RenderedRoom room;
+  const FrameReducer reducer(room.camera);
+  SceneHistory history(reducer.grids().cell, {});
+  CameraMotionEstimator estimator(reducer.grids(), {});
+  for (uint32_t frame = 0; frame < kLast; ++frame) {
+    if (frame > 0) history.Advance(Inverse(Sway(frame - 1)) * Sway(frame));
+    auto working =
+        std::make_shared<const WorkingFrame>(reducer.Reduce(room.Render(frame, Sway(frame), movers(frame))));
+    history.Add(working, cv::Mat1b(working->depth_m.size(), uint8_t{0}), nullptr);
+  }
+  const WorkingFrame last = reducer.Reduce(room.Render(kLast, Sway(kLast), movers(kLast)));
+  return {estimator.Estimate(history, last, 1), Inverse(Sway(kLast)) * Sway(kLast - 1)};
+}
+
+void ExpectNear(const Rigid3d& a, const Rigid3d& b) {
+  EXPECT_LT((a.translation - b.translation).norm(), 0.004);
+  EXPECT_LT(AngularDistance(a.rotation, b.rotation), 0.003);
+}
+
+TEST(CameraMotion, IsRecoveredInARestingRoom) {
+  const Pair pair = Estimate([](uint32_t) { return std::vector<RoomBox>{}; });
+  EXPECT_EQ(pair.motion.failure, "");
+  ExpectNear(pair.motion.color_current_from_previous, pair.truth);
+  ExpectNear(pair.motion.depth_current_from_previous, pair.truth);
+}
+
+TEST(CameraMotion, IsRecoveredThoughAQuarterOfTheViewMoves) {
+  const Pair pair = Estimate([](uint32_t frame) {
+    return std::vector<RoomBox>{{{-0.4 + 0.03 * frame, 0, 1.8}, {0.35, 0.9, 0.1}}};
+  });
+  ExpectNear(pair.motion.depth_current_from_previous, pair.truth);
+  int num_moving = 0;
+  for (const TrackedCorner& corner : pair.motion.corners) num_moving += corner.residual_px > 3;
+  EXPECT_GT(num_moving, 10);
+}
+
+TEST(CornerFlow, FollowsAShiftedImage) {
+  const RenderedRoom room;
+  const FrameReducer reducer(room.camera);
+  const WorkingFrame frame = reducer.Reduce(room.Render(0, {}, {}));
+  std::vector<cv::Mat1f> shifted;
+  for (int level = 0; level < 3; ++level) {  // to the left by 4, 2 and 1 px
+    cv::Mat1f image = frame.pyramid[level].clone();
+    const int shift = 4 >> level;
+    frame.pyramid[level].colRange(shift, image.cols).copyTo(image.colRange(0, image.cols - shift));
+    shifted.push_back(image);
+  }
+  const auto corners = SpreadCorners(frame.gray, {}, {});
+  ASSERT_GT(corners.size(), 100u);
+  int num_right = 0;
+  const auto flow = TrackPatches(frame.pyramid, shifted, corners, corners, {});
+  for (size_t i = 0; i < flow.size(); ++i)
+    num_right += flow[i].ok && cv::norm(flow[i].position - corners[i] - cv::Point2f(-4, 0)) < 0.1;
+  EXPECT_GT(num_right, 0.8 * static_cast<double>(corners.size()));
+}
+
+TEST(Segmenter, SplitsAtDepthEdgesAndLeavesOutWhatIsExcluded) {
+  cv::Mat1f depth(120, 160, 3.f);
+  depth(cv::Rect(20, 20, 40, 60)).setTo(1.5f);
+  cv::Mat1b included(depth.size(), uint8_t{255});
+  EXPECT_EQ(SegmentCells(depth, included, 20).clusters.size(), 2u);
+  included(cv::Rect(0, 0, 160, 15)).setTo(0);
+  included(cv::Rect(0, 15, 15, 105)).setTo(0);
+  const Segmentation segmentation = SegmentCells(depth, included, 20);
+  EXPECT_EQ(segmentation.labels(5, 5), -1);
+  EXPECT_NE(segmentation.labels(30, 30), segmentation.labels(100, 100));
+  EXPECT_TRUE(SegmentCells(depth, included, 100000).clusters.empty());
+}
+
+TEST(WorkingFrame, MasksComeBackToTheirRawPixelsThroughDistortion) {
+  PinholeCamera camera{640, 480, 517, 516, 318, 255, {0.26, -0.95, -0.005, 0.003, 1.16}};
+  const FrameReducer reducer(camera);
+  RgbdImage image;
+  image.gray = cv::Mat1b(480, 640, uint8_t{0});
+  image.depth_m = cv::Mat1f(480, 640, 3.f);
+  const cv::Rect thing(100, 60, 120, 200);
+  cv::Mat1f(image.depth_m)(thing).setTo(1.f);
+  const WorkingFrame frame = reducer.Reduce(image);
+  const cv::Mat1b raw = reducer.ToRawMask((frame.depth_m > 0) & (frame.depth_m < 2));
+  cv::Mat1b truth(480, 640, uint8_t{0});
+  truth(thing).setTo(255);
+  const double both = cv::countNonZero(raw & truth), either = cv::countNonZero(raw | truth);
+  EXPECT_GT(both / either, 0.93);
+}
+
+}  // namespace
+}  // namespace orbslam

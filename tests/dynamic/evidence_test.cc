@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evidence.h"
+
+#include <gmock/gmock.h>
+
+namespace orbslam {
+namespace {
+
+/// A solid cluster of 200 cells of which everything is judged and half is suspicious.
+ClusterFacts Mover() {
+  ClusterFacts facts;
+  facts.num_cells = facts.num_judged = 200;
+  facts.num_suspicious = 100, facts.num_interior = 140, facts.num_border = 60;
+  return facts;
+}
+
+float Fuse(const ClusterFacts& facts, const FusionOptions& options = {}) {
+  return FuseEvidence(MakeEvidence(options), facts, options);
+}
+
+TEST(Evidence, WhatStandsInFreeSpaceMoves) {
+  ClusterFacts facts = Mover();
+  EXPECT_GT(Fuse(facts), 0);
+  facts.num_suspicious = 5;
+  EXPECT_LT(Fuse(facts), 0);
+}
+
+TEST(Evidence, WhatNobodyJudgesHasThePrior) {
+  ClusterFacts facts = Mover();
+  facts.num_judged = facts.num_suspicious = 0;
+  EXPECT_FLOAT_EQ(Fuse(facts), FusionOptions().prior);
+}
+
+TEST(Evidence, MoreOfItNeverSpeaksTheOtherWay) {
+  for (int suspicious = 0; suspicious < 200; suspicious += 10) {
+    ClusterFacts less = Mover(), more = Mover();
+    less.num_suspicious = suspicious, more.num_suspicious = suspicious + 10;
+    EXPECT_LE(Fuse(less), Fuse(more));
+  }
+  ClusterFacts carried = Mover(), corners = Mover();
+  carried.carried = 2, corners.num_corners = corners.num_moving_corners = 4;
+  EXPECT_GT(Fuse(carried), Fuse(Mover()));
+  EXPECT_GT(Fuse(corners), Fuse(Mover()));
+}
+
+TEST(Evidence, EdgesOfStaticThingsAreDoubted) {
+  ClusterFacts thin = Mover(), attached = Mover();
+  thin.num_interior = 0, attached.num_attached = attached.num_border;
+  EXPECT_LT(Fuse(thin), Fuse(Mover()));
+  EXPECT_LT(Fuse(attached), Fuse(Mover()));
+}
+
+TEST(Evidence, EachSwitchTakesItsSourceAway) {
+  ClusterFacts facts = Mover();
+  facts.carried = 2, facts.num_corners = facts.num_moving_corners = 4;
+  facts.num_interior = 0, facts.num_attached = facts.num_border;
+  for (bool FusionOptions::*on :
+       {&FusionOptions::use_free_space, &FusionOptions::use_carry, &FusionOptions::use_klt_residual,
+        &FusionOptions::use_attachment, &FusionOptions::use_thickness}) {
+    FusionOptions options;
+    options.*on = false;
+    EXPECT_EQ(MakeEvidence(options).size() + 1, MakeEvidence({}).size());
+    EXPECT_NE(Fuse(facts, options), Fuse(facts));
+  }
+}
+
+TEST(Evidence, TheLineIntegralIsNeutralAtTauAndBounded) {
+  const FusionOptions options;
+  EXPECT_FLOAT_EQ(HistogramLogOdds(1, options), 0);
+  EXPECT_GT(HistogramLogOdds(2, options), 0);
+  EXPECT_LE(HistogramLogOdds(1000, options), options.max_histogram);
+}
+
+}  // namespace
+}  // namespace orbslam

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "free_space.h"
+
+#include <gmock/gmock.h>
+
+#include "orbslam/camera/depth_model.h"
+#include "orbslam/util/random.h"
+#include "scene_history.h"
+
+namespace orbslam {
+namespace {
+
+constexpr GridCamera kCamera{160, 120, 130, 130, 79.5f, 59.5f};
+const cv::Rect kThing(60, 40, 30, 30);
+
+/// A wall at wall_m, and a thing before it at thing_m (0: none), with the sensor's noise.
+cv::Mat1f Depth(float wall_m, float thing_m, uint64_t seed) {
+  cv::Mat1f depth(kCamera.height, kCamera.width, wall_m);
+  if (thing_m > 0) depth(kThing).setTo(thing_m);
+  Rng rng(seed);
+  for (float& z : depth) z += static_cast<float>(rng.Gaussian() * DepthModel::SigmaM(z));
+  return depth;
+}
+
+ReferenceView Reference(const cv::Mat1f& depth) {
+  auto frame = std::make_shared<WorkingFrame>();
+  frame->depth_m = depth;
+  ReferenceView view;
+  view.frame = frame, view.envelope = MakeEnvelope(depth), view.moving = cv::Mat1b::zeros(depth.size());
+  return view;
+}
+
+double Share(const cv::Mat1b& image, const cv::Rect& where) {
+  return cv::countNonZero(image(where)) / static_cast<double>(where.area());
+}
+
+FreeSpaceVotes Vote(const cv::Mat1f& now, const ReferenceView& reference) {
+  const ReferenceView* references[] = {&reference};
+  return VoteOnFreeSpace(kCamera, now, references, {});
+}
+
+/// At any distance, 5 m included.
+class FreeSpaceAt : public testing::TestWithParam<float> {};
+
+TEST_P(FreeSpaceAt, WhatHasComeIsSuspiciousAndWhatStaysIsStatic) {
+  const float wall = GetParam();
+  const FreeSpaceVotes votes = Vote(Depth(wall, 0.7f * wall, 1), Reference(Depth(wall, 0, 2)));
+  const cv::Rect inside(kThing.x + 1, kThing.y + 1, kThing.width - 2, kThing.height - 2);
+  EXPECT_GT(Share(votes.suspicious, inside), 0.99);
+  EXPECT_GT(Share(votes.confirmed_static, cv::Rect(5, 5, 150, 30)), 0.99);
+}
+
+TEST_P(FreeSpaceAt, NoiseAloneIsNotSuspicious) {
+  const float wall = GetParam();
+  const FreeSpaceVotes votes = Vote(Depth(wall, 0.7f * wall, 1), Reference(Depth(wall, 0.7f * wall, 2)));
+  EXPECT_LT(Share(votes.suspicious, cv::Rect(0, 0, 160, 120)), 0.001);
+}
+
+TEST_P(FreeSpaceAt, WhatIsUncoveredIsNeither) {
+  const float wall = GetParam();
+  const FreeSpaceVotes votes = Vote(Depth(wall, 0, 1), Reference(Depth(wall, 0.7f * wall, 2)));
+  const cv::Rect inside(kThing.x + 2, kThing.y + 2, kThing.width - 4, kThing.height - 4);
+  EXPECT_EQ(Share(votes.suspicious, inside), 0);
+  EXPECT_EQ(Share(votes.confirmed_static, inside), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, FreeSpaceAt, testing::Values(1.2f, 2.5f, 5.f));
+
+TEST(FreeSpace, WhatWasMaskedThenConfirmsNothing) {
+  ReferenceView reference = Reference(Depth(2, 1.5f, 1));
+  reference.moving(kThing).setTo(255);
+  EXPECT_EQ(Share(Vote(Depth(2, 1.5f, 2), reference).confirmed_static, kThing), 0);
+}
+
+TEST(FreeSpace, FollowsTheCamera) {
+  ReferenceView reference = Reference(Depth(2, 0, 1));
+  reference.reference_from_current.translation.z() = -0.5;  // the camera has come half a metre nearer ...
+  EXPECT_GT(Share(Vote(Depth(2.5f, 0, 2), reference).confirmed_static, cv::Rect(40, 30, 80, 60)), 0.99);
+  reference.reference_from_current.translation.z() = 0;
+  EXPECT_EQ(Share(Vote(Depth(2.5f, 0, 2), reference).confirmed_static, cv::Rect(40, 30, 80, 60)), 0);
+}
+
+}  // namespace
+}  // namespace orbslam
