@@ -62,7 +62,8 @@ BackgroundView RenderBackground(const GridCamera& camera, const WorkingFrame& cu
 
   BackgroundView view;
   const cv::Mat ones = cv::Mat::ones(3, 3, CV_8U);
-  const cv::Mat1b empty = canvas.depth_m >= kFar;
+  cv::Mat1b empty;
+  cv::compare(canvas.depth_m, kFar, empty, cv::CMP_GE);
   cv::erode(canvas.depth_m, view.depth_m, ones);  // the nearest of the 3 x 3: closes holes
   view.depth_m.setTo(0, view.depth_m >= kFar);
   cv::dilate(canvas.gray, view.brightest, ones);

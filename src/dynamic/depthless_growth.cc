@@ -25,7 +25,7 @@ cv::Mat1f CornerLogOdds(cv::Size cells, const std::vector<TrackedCorner>& corner
   constexpr float kRestsPx = 1.5f,
                   kMovesPx = 3.f;  // grey px, 1.5 and 3 sigma of flow and of the camera's motion
   constexpr int kBlock = 4;        // cells
-  cv::Mat1f blocks = cv::Mat1f::zeros(cells.height / kBlock + 1, cells.width / kBlock + 1);
+  cv::Mat1f blocks(cells.height / kBlock + 1, cells.width / kBlock + 1, 0.f);
   for (const TrackedCorner& corner : corners) {
     const int u = cvFloor(corner.current.x / (2 * kBlock)), v = cvFloor(corner.current.y / (2 * kBlock));
     if (u < 0 || v < 0 || u >= blocks.cols || v >= blocks.rows) continue;
@@ -45,7 +45,7 @@ cv::Mat1f DepthlessLogOdds(const WorkingFrame& frame, const cv::Mat1f& carried,
                            const GrowthOptions& options) {
   const cv::Mat1f& gray = frame.pyramid[1];
   const cv::Mat1f from_corners = CornerLogOdds(gray.size(), corners, options);
-  cv::Mat1f log_odds = cv::Mat1f::zeros(gray.size()), weight = cv::Mat1f::zeros(gray.size());
+  cv::Mat1f log_odds(gray.size(), 0.f), weight(gray.size(), 0.f);
   for (int v = 0; v < gray.rows; ++v)
     for (int u = 0; u < gray.cols; ++u) {
       if (frame.depth_m(v, u) > 0) continue;

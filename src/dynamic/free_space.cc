@@ -48,7 +48,7 @@ FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_
   for (const ReferenceView* reference : references)
     AddVotes(camera, depth_m, *reference, options, &row, &votes);
 
-  cv::Mat1b candidate = cv::Mat1b::zeros(depth_m.size());
+  cv::Mat1b candidate(depth_m.size(), uint8_t{0});
   for (int i = 0; i < static_cast<int>(depth_m.total()); ++i) {
     const int num_free = votes.num_free(i), num_static = votes.num_static(i);
     candidate(i) = static_cast<float>(num_free) - 0.5f * static_cast<float>(num_static) >= options.min_votes;

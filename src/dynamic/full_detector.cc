@@ -35,8 +35,9 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   const auto references =
       judgement.is_trusted ? history_.FreeSpaceReferences() : std::vector<const ReferenceView*>();
   judgement.votes = VoteOnFreeSpace(reducer_.grids().cell, frame->depth_m, references, options_.free_space);
-  judgement.segmentation =
-      SegmentCells(frame->depth_m, judgement.votes.confirmed_static == 0, options_.segmentation.min_cells);
+  cv::Mat1b undecided;
+  cv::compare(judgement.votes.confirmed_static, 0, undecided, cv::CMP_EQ);
+  judgement.segmentation = SegmentCells(frame->depth_m, undecided, options_.segmentation.min_cells);
   const HistogramWindow window(reducer_.grids().cell, history_, *frame, options_.histogram);
   JudgeClusters(*frame, window, &judgement);
   JudgeDepthless(*frame, references, &judgement);
@@ -51,7 +52,7 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
 
 void FullDetector::Begin(std::shared_ptr<const WorkingFrame> frame, DynamicMask* result) {
   result->fail_open_reason = "there is no earlier frame to compare with";
-  const cv::Mat1b nothing = cv::Mat1b::zeros(frame->depth_m.size());
+  const cv::Mat1b nothing(frame->depth_m.size(), uint8_t{0});
   log_odds_ = cv::Mat1f::zeros(frame->depth_m.size());
   auto cloud = MakeHistogramCloud(reducer_.grids().cell, frame->depth_m, options_.histogram.stride);
   history_.Add(std::move(frame), nothing, std::move(cloud));

@@ -51,7 +51,7 @@ HistogramWindow::HistogramWindow(const GridCamera& camera, const SceneHistory& h
 
 ClusterMotion HistogramWindow::Motion(const Cluster& cluster, std::span<const TrackedCorner> corners) const {
   std::vector<Eigen::Vector3f> points;
-  cv::Mat1b is_cluster = cv::Mat1b::zeros(depth_m_.size());
+  cv::Mat1b is_cluster(depth_m_.size(), uint8_t{0});
   for (const int cell : cluster.cells) {
     is_cluster(cell) = 1;
     const int u = cell % depth_m_.cols, v = cell / depth_m_.cols;

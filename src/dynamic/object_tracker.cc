@@ -58,7 +58,8 @@ ObjectTracker::Labelled ObjectTracker::Update(const GridCamera& camera, int pixe
       const double z = frame.depth_m(v, u);
       if (z <= 0 || log_odds(v, u) <= 0) continue;  // the rim of the mask lies on the background
       ++sum.measured;
-      sum.position += z * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
+      sum.position += z * Eigen::Vector3d((static_cast<float>(u) - camera.cx) / camera.fx,
+                                          (static_cast<float>(v) - camera.cy) / camera.fy, 1);
     }
   std::vector<int> index_of_part(num_parts, -1);
   for (int part = 1; part < num_parts; ++part) {

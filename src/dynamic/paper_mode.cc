@@ -59,7 +59,7 @@ DynamicMask PaperMode::Process(const RgbdImage& image) {
     if (object.IsDynamic())
       result.objects.push_back({0, object.centroid_m.cast<double>(), object.velocity_mps.cast<double>(),
                                 object.line_integral_ratio, 0, object.num_pixels});
-  history_.Add(frame, cv::Mat1b::zeros(frame->depth_m.size()), nullptr);
+  history_.Add(frame, cv::Mat1b(frame->depth_m.size(), uint8_t{0}), nullptr);
   return result;
 }
 

@@ -12,7 +12,8 @@ constexpr int kMinMeasured = 6;
 }  // namespace
 
 DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m) {
-  const cv::Mat1b measured = depth_m > 0;  // 255 or 0
+  cv::Mat1b measured;  // 255 or 0
+  cv::compare(depth_m, 0, measured, cv::CMP_GT);
   cv::Mat1f or_far = depth_m.clone();
   or_far.setTo(kFar, ~measured);
   DepthEnvelope envelope;
@@ -20,7 +21,8 @@ DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m) {
   cv::dilate(depth_m, envelope.farthest_m, cv::Mat::ones(3, 3, CV_8U));
   cv::Mat1f count;
   cv::boxFilter(measured, count, CV_32F, {3, 3}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  const cv::Mat1b thin = count < 255.0 * kMinMeasured;
+  cv::Mat1b thin;
+  cv::compare(count, 255.0 * kMinMeasured, thin, cv::CMP_LT);
   envelope.nearest_m.setTo(0, thin);
   envelope.farthest_m.setTo(0, thin);
   return envelope;
