@@ -46,7 +46,9 @@ TEST_P(GaitAtSpeed, AFootThatCarriesDoesNotSlide) {
       const Vector3d ball = SolePoint(kSize.foot, state, kSize.foot.ball);
       if (state.planted && !was_planted) print = ball;
       // It comes down round the heel: the ball moves by what a pitched sole is shorter on the floor.
-      if (state.planted) EXPECT_LT((ball - print).head<2>().norm(), 0.012) << "at " << t;
+      if (state.planted) {
+        EXPECT_LT((ball - print).head<2>().norm(), 0.012) << "at " << t;
+      }
       was_planted = state.planted;
     }
   }
@@ -61,7 +63,9 @@ TEST_P(GaitAtSpeed, FeetAreOnTheFloorOrAboveIt) {
       const double ball = SolePoint(kSize.foot, foot, kSize.foot.ball).z();
       const double tip = ball + (kSize.foot.toe - kSize.foot.ball) * std::sin(foot.toe_pitch);
       EXPECT_GT(std::min({heel, ball, tip}), -1e-6) << "at " << t;
-      if (foot.planted) EXPECT_NEAR(std::min(heel, ball), 0, 1e-6) << "at " << t;
+      if (foot.planted) {
+        EXPECT_NEAR(std::min(heel, ball), 0, 1e-6) << "at " << t;
+      }
     }
     EXPECT_TRUE(state.feet[0].planted || state.feet[1].planted) << "at " << t;
   }

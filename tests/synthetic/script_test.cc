@@ -113,9 +113,9 @@ TEST_P(ScriptOf, ATimeShowsTheSameWheneverItIsAsked) {
 INSTANTIATE_TEST_SUITE_P(Kinds, ScriptOf,
                          testing::Combine(testing::ValuesIn(AllScripts().begin(), AllScripts().end()),
                                           testing::Values(1, 2)),
-                         [](const auto& info) {
-                           return std::string(ScriptName(std::get<0>(info.param))) + "_" +
-                                  std::to_string(std::get<1>(info.param));
+                         [](const auto& test) {
+                           return std::string(ScriptName(std::get<0>(test.param))) + "_" +
+                                  std::to_string(std::get<1>(test.param));
                          });
 
 TEST(Script, NamesAreReadBack) {

@@ -15,24 +15,17 @@
 namespace orbslam::test {
 namespace {
 
-SyntheticSequenceOptions SmallSequence() {
+SyntheticSequenceOptions Walk() {
   SyntheticSequenceOptions options;
   options.motion = Motion::kLoop;
-  options.camera = SyntheticCamera(320);
-  options.texels_per_metre = 128;
+  options.camera = SyntheticCamera();
   options.sensor.image_noise = options.sensor.depth_noise = true;
   return options;
 }
 
-DepthModel SmallDepthModel() {
-  DepthModel model;
-  model.baseline_times_fx = 20;  // half the width, half the pixels
-  return model;
-}
-
 /// Rendering takes most of the time, so that the tests share the pictures.
 const SyntheticFrame& Picture(int index) {
-  static const SyntheticSequence sequence(SmallSequence());
+  static const SyntheticSequence sequence(Walk());
   static std::map<int, SyntheticFrame> pictures;
   const auto found = pictures.find(index);
   return found != pictures.end() ? found->second : pictures[index] = sequence.Frame(index);
@@ -50,7 +43,7 @@ double AbsoluteTrajectoryErrorM(const Eigen::Matrix3Xd& truth, const Eigen::Matr
 
 class TrackingTest : public testing::Test {
  protected:
-  static constexpr double kMaxErrorM = 0.025;  // of one frame, by noisy depth and 320 x 240 pixels
+  static constexpr double kMaxErrorM = 0.025;  // of one frame, by noisy depth
 
   FrameReport Show(Tracking* tracking, const cv::Mat& gray, const cv::Mat& depth_m) {
     RgbdImage image;
@@ -65,7 +58,7 @@ class TrackingTest : public testing::Test {
   }
   FrameReport Show(int index) { return Show(index, &tracking_); }
   FrameReport ShowBlack() {
-    return Show(&tracking_, cv::Mat::zeros(240, 320, CV_8UC1), cv::Mat::zeros(240, 320, CV_32FC1));
+    return Show(&tracking_, cv::Mat::zeros(480, 640, CV_8UC1), cv::Mat::zeros(480, 640, CV_32FC1));
   }
 
   /// In the world of a map that was begun with picture 0.
@@ -82,7 +75,7 @@ class TrackingTest : public testing::Test {
 
   uint32_t num_shown_ = 0;
   const OrbExtractorOptions orb_;
-  const Sensor sensor_{SyntheticCamera(320), SmallDepthModel(), orb_, SyntheticSequence::kFramesPerSecond};
+  const Sensor sensor_{SyntheticCamera(), DepthModel(), orb_, SyntheticSequence::kFramesPerSecond};
   Map map_{MapData(sensor_.pyramid)};
   Tracking tracking_ = MakeTracking();
 };
@@ -111,7 +104,7 @@ TEST_F(TrackingTest, FollowsTheCamera) {
 
 TEST_F(TrackingTest, BeginsWithTheFirstFrameThatHasDepth) {
   for (int i = 0; i < 2; ++i) {
-    const FrameReport report = Show(&tracking_, Picture(i).gray, cv::Mat::zeros(240, 320, CV_32FC1));
+    const FrameReport report = Show(&tracking_, Picture(i).gray, cv::Mat::zeros(480, 640, CV_32FC1));
     EXPECT_EQ(report.state, TrackingState::kNotInitialized);
     EXPECT_FALSE(report.world_from_camera);
   }
