@@ -2,7 +2,6 @@
 #include "camera_motion.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "orbslam/geometry/so3.h"
 
@@ -44,24 +43,6 @@ Eigen::Matrix<double, 6, 6> DepthPriorInformation(const PoseFromCorners& color, 
       IsotropicInformation(options.prior_rotation_rad, options.prior_translation_m);
   if (!color.ok) return 0.01 * of_time;  // a guess: ten times less certain
   return (color.information.inverse() + of_time.inverse()).inverse();
-}
-
-/// What depth alone says of the colour motion. A thing that moves before a wall parallel to the image looks,
-/// to corners, like a turn of the camera; the wall's depth knows better. Colour and depth frames may be
-/// spaced differently in time by as much as half of the interval.
-MotionGate GateFromDepth(const IcpResult& icp, const IcpOptions& options) {
-  constexpr double kIndependent = 0.1;  // share of independent cells: the sensor's noise is correlated
-  constexpr int kMinPairs = 200;
-  MotionGate gate;
-  gate.current_from_previous = Inverse(icp.base_from_source);
-  if (icp.num_pairs < kMinPairs || icp.FitShare() < 0.5) return gate;
-  const double angle = 2 * std::acos(std::min(1.0, std::abs(gate.current_from_previous.rotation.w())));
-  const double distance = gate.current_from_previous.translation.norm();
-  const auto of_time = IsotropicInformation(std::max(options.prior_rotation_rad, 0.5 * angle),
-                                            std::max(options.prior_translation_m, 0.5 * distance));
-  const Eigen::Matrix<double, 6, 6> of_depth = kIndependent * icp.information + 1e-3 * of_time;
-  gate.information = (of_depth.inverse() + of_time.inverse()).inverse();
-  return gate;
 }
 
 }  // namespace
@@ -114,15 +95,8 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
       matches.push_back(
           {Point(grids_.gray, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
   Rng rng(seed, 0, 0xE60);
-  IcpOptions coarse = options_.icp;
-  coarse.stride *= 2, coarse.iterations = 3;
-  const IcpTarget last{previous.frame.get(), &previous.moving, {}};
-  // A guess: the camera may have accelerated by a fifth of a metre and a radian a second.
-  const IcpResult depth_only = AlignDepth(grids_.cell, current, nullptr, {&last, 1}, Inverse(predicted),
-                                          IsotropicInformation(0.03, 0.02), coarse);
-  const MotionGate gate = GateFromDepth(depth_only, options_.icp);
-  const PoseFromCorners from_corners = EstimatePose(
-      grids_.gray, matches, {gate.current_from_previous, predicted, Rigid3d()}, gate, options_.pose, &rng);
+  const PoseFromCorners from_corners =
+      EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
   motion.num_inliers = from_corners.num_inliers;
   motion.color_current_from_previous = from_corners.ok ? from_corners.current_from_previous : predicted;
 

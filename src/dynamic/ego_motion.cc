@@ -76,12 +76,11 @@ float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, co
 }
 
 Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>& matches,
-                       const std::vector<Rigid3d>& candidates, const MotionGate& gate,
-                       const PoseFromCornersOptions& options, Rng* rng) {
+                       const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
+                       Rng* rng) {
   Rigid3d best = candidates.front();
   float best_cost = Cost(camera, matches, best, options.inlier_px);
   const auto consider = [&](const Rigid3d& pose) {
-    if (!gate.Admits(pose)) return;
     const float cost = Cost(camera, matches, pose, options.inlier_px);
     if (cost < best_cost) best = pose, best_cost = cost;
   };
@@ -101,21 +100,14 @@ Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>&
 
 }  // namespace
 
-bool MotionGate::Admits(const Rigid3d& current_from_previous_estimate) const {
-  const Rigid3d difference = current_from_previous_estimate * Inverse(current_from_previous);
-  Eigen::Matrix<double, 6, 1> error;
-  error << So3Log(difference.rotation), difference.translation;
-  return error.dot(information * error) < max_sigmas * max_sigmas;
-}
-
 PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerMatch>& matches,
-                             const std::vector<Rigid3d>& candidates, const MotionGate& gate,
-                             const PoseFromCornersOptions& options, Rng* rng) {
+                             const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
+                             Rng* rng) {
   PoseFromCorners result;
   result.current_from_previous = candidates.front();
   result.is_inlier.assign(matches.size(), 0);
   if (static_cast<int>(matches.size()) < options.min_inliers) return result;
-  Rigid3d pose = BestHypothesis(camera, matches, candidates, gate, options, rng);
+  Rigid3d pose = BestHypothesis(camera, matches, candidates, options, rng);
   std::vector<int> all(matches.size());
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   Matrix6f information;  // of a flow with an error of 1 px

@@ -26,20 +26,10 @@ struct PoseFromCorners {
   bool ok = false;
 };
 
-/// What is known of a motion before: estimates that differ from it by more than max_sigmas are ruled out.
-struct MotionGate {
-  Rigid3d current_from_previous;
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  // as below; zero: nothing
-  double max_sigmas = 4;
-
-  bool Admits(const Rigid3d& current_from_previous_estimate) const;
-};
-
 /// The camera's motion from corners: RANSAC over triples, in which the candidates given (a motion model, "no
 /// motion") compete; then Gauss-Newton on the inliers.
-/// The first candidate is always admitted.
 PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerMatch>& matches,
-                             const std::vector<Rigid3d>& candidates, const MotionGate& gate,
-                             const PoseFromCornersOptions& options, Rng* rng);
+                             const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
+                             Rng* rng);
 
 }  // namespace orbslam

@@ -78,21 +78,20 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
   }
 }
 
-Matrix6f Hessian(const Sums& sums) {
-  Matrix6f hessian;
-  int k = 0;
-  for (int a = 0; a < 6; ++a)
-    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = sums.hessian[k++];
-  return hessian;
-}
-
 /// One Gauss-Newton step with the prior; the pose's perturbation.
 Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const Matrix6f& prior_information) {
-  Vector6f gradient = Eigen::Map<const Vector6f>(sums.gradient);
+  Matrix6f hessian;
+  Vector6f gradient;
+  int k = 0;
+  for (int a = 0; a < 6; ++a) {
+    gradient[a] = sums.gradient[a];
+    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = sums.hessian[k++];
+  }
   Vector6f from_prior;
   from_prior << So3Log(prior_from_source.rotation).cast<float>(), prior_from_source.translation.cast<float>();
+  hessian += prior_information;
   gradient += prior_information * from_prior;
-  return -(Hessian(sums) + prior_information).ldlt().solve(gradient);
+  return -hessian.ldlt().solve(gradient);
 }
 
 }  // namespace
@@ -115,7 +114,6 @@ IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const
       AddPairs(camera, source, ignored_source, target, target.target_from_base * result.base_from_source,
                options, stride, &sums);
     result.num_pairs = sums.num_pairs, result.num_fitting = sums.num_fitting;
-    result.information = Hessian(sums).cast<double>();
     const Rigid3d prior_from_source = Inverse(base_from_source_prior) * result.base_from_source;
     const Eigen::Matrix<double, 6, 1> step =
         Step(sums, prior_from_source, prior_information.cast<float>()).cast<double>();

@@ -19,9 +19,8 @@ struct IcpTarget {
 
 struct IcpResult {
   Rigid3d base_from_source;
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  // of the depth alone
-  int num_pairs = 0;                                                              // points that met a surface
-  int num_fitting = 0;                                                            // of them, within the gate
+  int num_pairs = 0;    // points that met a surface
+  int num_fitting = 0;  // of them, within the gate
   double FitShare() const { return num_pairs > 0 ? static_cast<double>(num_fitting) / num_pairs : 0; }
 };
 

@@ -99,15 +99,10 @@ TEST(WorkingFrame, MasksComeBackToTheirRawPixelsThroughDistortion) {
   const cv::Rect thing(100, 60, 120, 200);
   cv::Mat1f(image.depth_m)(thing).setTo(1.f);
   const WorkingFrame frame = reducer.Reduce(image);
-  cv::Mat1b cells(frame.depth_m.size());
-  for (int i = 0; i < static_cast<int>(cells.total()); ++i)
-    cells(i) = frame.depth_m(i) > 0 && frame.depth_m(i) < 2;
-  const cv::Mat1b raw = reducer.ToRawMask(cells);
+  const cv::Mat1b raw = reducer.ToRawMask((frame.depth_m > 0) & (frame.depth_m < 2));
   cv::Mat1b truth(480, 640, uint8_t{0});
   truth(thing).setTo(255);
-  double both = 0, either = 0;
-  for (int i = 0; i < static_cast<int>(raw.total()); ++i)
-    both += raw(i) && truth(i), either += raw(i) || truth(i);
+  const double both = cv::countNonZero(raw & truth), either = cv::countNonZero(raw | truth);
   EXPECT_GT(both / either, 0.93);
 }
 
