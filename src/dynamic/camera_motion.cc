@@ -45,6 +45,16 @@ Eigen::Matrix<double, 6, 6> DepthPriorInformation(const PoseFromCorners& color, 
   return (color.information.inverse() + of_time.inverse()).inverse();
 }
 
+/// Whether the depth camera can have moved so while the colour camera moved otherwise.
+bool IsPlausible(const Rigid3d& depth, const Rigid3d& color, const CameraMotionOptions& options) {
+  const auto angle = [](const Rigid3d& motion) { return So3Log(motion.rotation).norm(); };
+  const Rigid3d difference = depth * Inverse(color);
+  return difference.translation.norm() < options.max_depth_sigmas * options.icp.prior_translation_m +
+                                             options.max_clock_share * color.translation.norm() &&
+         angle(difference) < options.max_depth_sigmas * options.icp.prior_rotation_rad +
+                                 options.max_clock_share * angle(color);
+}
+
 }  // namespace
 
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
@@ -108,6 +118,9 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
                  DepthPriorInformation(from_corners, options_.icp), options_.icp);
   motion.fit_share = icp.FitShare();
   motion.depth_current_from_previous = Inverse(icp.base_from_source);
+  motion.is_depth_misled = from_corners.ok && !IsPlausible(motion.depth_current_from_previous,
+                                                           motion.color_current_from_previous, options_);
+  if (motion.is_depth_misled) motion.depth_current_from_previous = motion.color_current_from_previous;
 
   for (TrackedCorner& corner : motion.corners) {
     corner.excess = Excess(grids_.gray, motion.color_current_from_previous, corner);

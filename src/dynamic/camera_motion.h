@@ -28,7 +28,8 @@ struct CameraMotion {
   std::vector<TrackedCorner> corners;
   int num_inliers = 0;
   double fit_share = 0;
-  std::string failure;  // why it is not to be trusted; empty: it is
+  bool is_depth_misled = false;  // the depth's own alignment was not believed
+  std::string failure;           // why it is not to be trusted; empty: it is
 };
 
 class CameraMotionEstimator {

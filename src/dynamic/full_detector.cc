@@ -64,7 +64,7 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
   judgement.is_trusted = judgement.motion.failure.empty();
   untrusted_frames_ = judgement.is_trusted ? 0 : untrusted_frames_ + 1;
   history_.Advance(Inverse(judgement.motion.depth_current_from_previous));
-  history_.AlignKeyframes(frame, nullptr);
+  history_.AlignKeyframes(frame, judgement.motion.is_depth_misled);
   judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.corners);
   judgement.carried = CarryOver(log_odds_, judgement.shift);
   return judgement;

@@ -79,13 +79,14 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
 }
 
 /// One Gauss-Newton step with the prior; the pose's perturbation.
-Vector6f Step(const Sums& sums, const Rigid3d& prior_from_source, const Matrix6f& prior_information) {
+Vector6f Step(const Sums& sums, float weight, const Rigid3d& prior_from_source,
+              const Matrix6f& prior_information) {
   Matrix6f hessian;
   Vector6f gradient;
   int k = 0;
   for (int a = 0; a < 6; ++a) {
-    gradient[a] = sums.gradient[a];
-    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = sums.hessian[k++];
+    gradient[a] = weight * sums.gradient[a];
+    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = weight * sums.hessian[k++];
   }
   Vector6f from_prior;
   from_prior << So3Log(prior_from_source.rotation).cast<float>(), prior_from_source.translation.cast<float>();
@@ -115,8 +116,9 @@ IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const
                options, stride, &sums);
     result.num_pairs = sums.num_pairs, result.num_fitting = sums.num_fitting;
     const Rigid3d prior_from_source = Inverse(base_from_source_prior) * result.base_from_source;
-    const Eigen::Matrix<double, 6, 1> step =
-        Step(sums, prior_from_source, prior_information.cast<float>()).cast<double>();
+    const Eigen::Matrix<double, 6, 1> step = Step(sums, static_cast<float>(options.independent_share),
+                                                  prior_from_source, prior_information.cast<float>())
+                                                 .cast<double>();
     result.base_from_source = result.base_from_source * Rigid3d{So3Exp(step.head<3>()), step.tail<3>()};
     if (stride == options.stride && step.head<3>().norm() < 1e-5 && step.tail<3>().norm() < 2e-5) break;
   }

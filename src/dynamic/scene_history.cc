@@ -18,15 +18,17 @@ void SceneHistory::Advance(const Rigid3d& previous_from_current) {
     }
 }
 
-void SceneHistory::AlignKeyframes(const WorkingFrame& current, const cv::Mat1b* ignored) {
+void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_misled) {
+  frames_since_misled_ = is_depth_misled ? 0 : frames_since_misled_ + 1;
   IcpOptions icp;
   icp.stride = options_.stride, icp.iterations = options_.iterations;
   icp.prior_translation_m = options_.prior_translation_m,
   icp.prior_rotation_rad = options_.prior_rotation_rad;
+  if (frames_since_misled_ < options_.doubtful_frames) icp.independent_share = options_.doubtful_share;
   for (ReferenceView& view : keyframes_) {
     const IcpTarget target{view.frame.get(), &view.moving, {}};
     const IcpResult result =
-        AlignDepth(camera_, current, ignored, {&target, 1}, view.reference_from_current,
+        AlignDepth(camera_, current, nullptr, {&target, 1}, view.reference_from_current,
                    IsotropicInformation(options_.prior_rotation_rad, options_.prior_translation_m), icp);
     view.is_aligned = result.num_pairs >= options_.min_pairs && result.FitShare() >= options_.min_fit_share;
     view.frames_unaligned = view.is_aligned ? 0 : view.frames_unaligned + 1;

@@ -22,7 +22,8 @@ class SceneHistory {
   /// Carries all poses over to the frame now processed.
   void Advance(const Rigid3d& previous_from_current);
   /// Aligns each keyframe with the present frame; those that do not fit, or no longer overlap, are forgotten.
-  void AlignKeyframes(const WorkingFrame& current, const cv::Mat1b* ignored);
+  /// is_depth_misled: something moves that depth takes for the room; its pull is made weak for a while.
+  void AlignKeyframes(const WorkingFrame& current, bool is_depth_misled);
   /// t-2, t-4 and the keyframes.
   std::vector<const ReferenceView*> FreeSpaceReferences() const;
   /// moving: its cells that were masked. cloud: for the motion histogram, may be null.
@@ -35,6 +36,7 @@ class SceneHistory {
   ReferenceOptions options_;
   std::deque<ReferenceView> recent_;  // youngest first
   std::deque<ReferenceView> keyframes_;
+  int frames_since_misled_ = 1 << 20;
   int frames_since_keyframe_ = 1 << 20;
 };
 

@@ -27,9 +27,10 @@ struct FlowOptions {
 
 /// The camera's motion from corners.
 struct PoseFromCornersOptions {
-  int num_draws = 80;     // with 60 % outliers, 99 % certain to draw three inliers at least once
-  float inlier_px = 1.f;  // grey px: 3 sigma of the flow, and what rolling shutter leaves
-  double sigma_px = 0.7;   // grey px, of a corner's place: flow, depth and rolling shutter
+  int num_draws = 80;  // with 60 % outliers, 99 % certain to draw three inliers at least once
+  float inlier_px =
+      0.4f;               // grey px: 3 sigma of the flow. With 1 px, one who walks slowly passes for the room
+  double sigma_px = 0.7;  // grey px, of a corner's place: flow, depth and rolling shutter
   int min_inliers = 12;   // twice the unknowns, each giving two equations
 };
 
@@ -38,9 +39,11 @@ struct IcpOptions {
   int stride = 2;                      // cells between the points used, in the last iterations
   int iterations = 5;                  // the first two with twice the stride
   double prior_translation_m = 0.002;  // sigma of the initial pose: colour and depth are 15 ms apart, and
-  double prior_rotation_rad = 0.003;   // a hand accelerates by 4 m/s^2 and 6 rad/s^2 in the 30 ms between frames
-  float max_distance_m = 0.10f;        // of a pair along the normal: farther is another surface
-  float gate_sigma = 3.f;              // what fits; the weights (Tukey's biweight) end at twice that
+  double prior_rotation_rad =
+      0.003;                     // a hand accelerates by 4 m/s^2 and 6 rad/s^2 in the 30 ms between frames
+  float max_distance_m = 0.10f;  // of a pair along the normal: farther is another surface
+  float gate_sigma = 3.f;        // what fits; the weights (Tukey's biweight) end at twice that
+  double independent_share = 1;  // of the points, when their sum is weighed against the prior
 };
 
 struct CameraMotionOptions {
@@ -48,21 +51,29 @@ struct CameraMotionOptions {
   FlowOptions flow;
   PoseFromCornersOptions pose;
   IcpOptions icp;
-  int far_target = 8;          // frames back: second target of the alignment, against drift
+  // Depth follows a person who walks along a wall, which itself says nothing of that direction. It is
+  // believed if it differs from the corners' motion by no more than sigmas of its prior and what the clocks
+  // explain.
+  double max_depth_sigmas = 2.5;
+  double max_clock_share =
+      0.25;            // of the motion: colour and depth are up to half an interval apart, and that varies
+  int far_target = 8;  // frames back: second target of the alignment, against drift
   double min_fit_share = 0.5;  // of the paired depth within the gate; below, the motion is not trusted
 };
 
 /// Frames of the past against which the present one is judged.
 struct ReferenceOptions {
-  int num_recent = 8;                 // kept one by one: the histogram's rows
-  int keyframe_interval = 10;         // frames: a person walks half a metre, more than his depth
-  int max_keyframes = 8;              // 2.7 s: how long one who stands still stays masked
+  int num_recent = 8;                  // kept one by one: the histogram's rows
+  int keyframe_interval = 10;          // frames: a person walks half a metre, more than his depth
+  int max_keyframes = 8;               // 2.7 s: how long one who stands still stays masked
   double prior_translation_m = 0.002;  // sigma of a carried pose before its own alignment: of one frame,
   double prior_rotation_rad = 0.002;   // since it was aligned to the last
-  int stride = 4, iterations = 3;  // of that alignment
-  double min_fit_share = 0.5;      // of the paired points within 3 sigma; else it is not asked
-  int min_pairs = 60;              // ten for each unknown
-  int max_unaligned = 30;          // frames after which it is forgotten: 1 s, someone walks past
+  int stride = 4, iterations = 3;      // of that alignment
+  double doubtful_share = 0.1;         // of its points count as independent, for as long as ...
+  int doubtful_frames = 30;            // ... after depth was not believed: a person walks past in a second
+  double min_fit_share = 0.5;          // of the paired points within 3 sigma; else it is not asked
+  int min_pairs = 60;                  // ten for each unknown
+  int max_unaligned = 30;              // frames after which it is forgotten: 1 s, someone walks past
 };
 
 /// Free space: what stands where a reference saw through, has moved there.
