@@ -55,6 +55,17 @@ bool IsPlausible(const Rigid3d& depth, const Rigid3d& color, const CameraMotionO
                                  options.max_clock_share * angle(color);
 }
 
+/// Corners can be misled too: a thing that moves before a wall parallel to the image looks to them like a
+/// turn of the camera. Then the wall's depth does not fit their motion.
+bool FitsDepth(const GridCamera& cell_camera, const WorkingFrame& current, std::span<const IcpTarget> targets,
+               const Rigid3d& current_from_previous, double best_fit_share, IcpOptions options) {
+  constexpr double kAsWell = 0.9;
+  options.iterations = 1;  // the share is that before the step
+  const IcpResult at_pose = AlignDepth(cell_camera, current, nullptr, targets, Inverse(current_from_previous),
+                                       IsotropicInformation(1, 1), options);
+  return at_pose.FitShare() > kAsWell * best_fit_share;
+}
+
 }  // namespace
 
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
@@ -118,8 +129,11 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
                  DepthPriorInformation(from_corners, options_.icp), options_.icp);
   motion.fit_share = icp.FitShare();
   motion.depth_current_from_previous = Inverse(icp.base_from_source);
-  motion.is_depth_misled = from_corners.ok && !IsPlausible(motion.depth_current_from_previous,
-                                                           motion.color_current_from_previous, options_);
+  motion.is_depth_misled =
+      from_corners.ok &&
+      !IsPlausible(motion.depth_current_from_previous, motion.color_current_from_previous, options_) &&
+      FitsDepth(grids_.cell, current, targets, motion.color_current_from_previous, motion.fit_share,
+                options_.icp);
   if (motion.is_depth_misled) motion.depth_current_from_previous = motion.color_current_from_previous;
 
   for (TrackedCorner& corner : motion.corners) {

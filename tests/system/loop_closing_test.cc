@@ -37,8 +37,14 @@ Outcome WalkWithDrift(RunMode mode, std::shared_ptr<const Vocabulary> vocabulary
   return {AteM(dir.Path("camera.txt"), Rounds()), system.counts()};
 }
 
+/// Without a vocabulary no loop is closed.
+const Outcome& Open() {
+  static const Outcome open = WalkWithDrift({.is_sequential = true}, nullptr);
+  return open;
+}
+
 TEST(LoopClosing, UndoesTheDriftOfAWalkRoundTheRoom) {
-  const Outcome open = WalkWithDrift({.is_sequential = true}, nullptr);
+  const Outcome& open = Open();
   const Outcome closed = WalkWithDrift({.is_sequential = true}, ShippedVocabulary());
   EXPECT_EQ(open.counts.loops, 0);
   EXPECT_GE(closed.counts.loops, 1);
@@ -51,7 +57,7 @@ TEST(LoopClosing, UndoesTheDriftOfAWalkRoundTheRoom) {
 TEST(LoopClosing, WorksBesideTracking) {
   const Outcome closed = WalkWithDrift({}, ShippedVocabulary());
   EXPECT_GE(closed.counts.loops, 1);
-  EXPECT_LT(closed.ate_m, 0.05);
+  EXPECT_LT(closed.ate_m, Open().ate_m / 5);
 }
 
 }  // namespace

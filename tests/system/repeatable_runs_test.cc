@@ -12,7 +12,7 @@ namespace {
 constexpr RunMode kThreaded{}, kSequential{.is_sequential = true};
 
 const Recording& Swings() {
-  static const Recording recording(Motion::kXyz, 320, 150, /*stride=*/2);
+  static const Recording recording(Motion::kXyz, 640, 150, /*stride=*/2);
   return recording;
 }
 
