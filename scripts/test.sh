@@ -57,9 +57,10 @@ run_threads_under_tsan() {
 
 run_under_asan() {
   export ASAN_OPTIONS="detect_leaks=1" UBSAN_OPTIONS="print_stacktrace=1"
+  export LSAN_OPTIONS="suppressions=$root/tests/lsan_suppressions.txt:print_suppressions=0"
   echo "AddressSanitizer: building"
   build asan
-  run_tests AddressSanitizer asan -L 'unit|property|threads|e2e' -LE dataset
+  run_tests AddressSanitizer asan -L 'unit|property|threads|e2e|determinism' -LE dataset
 }
 
 sanitize=false
