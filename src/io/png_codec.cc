@@ -2,6 +2,7 @@
 #include "png_codec.h"
 
 #include <spng.h>
+#include <zlib.h>
 
 #include <array>
 #include <cstdlib>
@@ -57,6 +58,15 @@ std::string Found(const Decoder& decoder) {
          (decoder.channels() == 1 ? " channel" : " channels") + palette;
 }
 
+/// One row filter instead of the best of five: for noisy camera pictures three times as fast, and no larger.
+/// Colours: what changes downwards, coded as runs (noise has no other repetitions); depth repeats as it is.
+int ChooseFastFilters(spng_ctx* context, int bit_depth) {
+  if (bit_depth == 16) return spng_set_option(context, SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_NONE);
+  const int code = spng_set_option(context, SPNG_IMG_COMPRESSION_STRATEGY, Z_RLE);
+  if (code != SPNG_OK) return code;
+  return spng_set_option(context, SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_UP);
+}
+
 }  // namespace
 
 bool IsPng(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1A\n"); }
@@ -103,6 +113,8 @@ Result<std::string> EncodePng(const cv::Mat& image, int compression_level) {
 
   int code = spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   if (code == SPNG_OK) code = spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, compression_level);
+  if (code == SPNG_OK && compression_level == 1)
+    code = ChooseFastFilters(context.get(), header.bit_depth);
   if (code == SPNG_OK) code = spng_set_ihdr(context.get(), &header);
   if (code == SPNG_OK) {
     code = spng_encode_image(context.get(), image.data, image.total() * image.elemSize(), SPNG_FMT_PNG,
