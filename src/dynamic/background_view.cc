@@ -39,7 +39,7 @@ void Splat(const GridCamera& camera, const WorkingFrame& current, const Referenc
   const float exposure = ExposureRatio(camera, current, reference);
   ProjectedRow row(camera.width);
   for (int v = 0; v < camera.height; ++v) {
-    ProjectRow(camera, current_from_reference, v, reference.frame->depth_m[v], &row);
+    ProjectRow(camera, current_from_reference, v, reference.filled_depth_m[v], &row);
     const uint8_t* moving = reference.moving[v];
     const float* gray = reference.frame->pyramid[1][v];
     for (int u = 0; u < camera.width; ++u) {

@@ -113,7 +113,7 @@ void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const 
 
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
-                                      std::span<const TrackedCorner> corners, float corner_gate_px) {
+                                      std::span<const TrackedCorner> corners, float moving_gate_px) {
   std::vector<ClusterFacts> all(segmentation.clusters.size());
   for (size_t c = 0; c < all.size(); ++c) {
     const std::vector<int>& cells = segmentation.clusters[c].cells;
@@ -129,7 +129,7 @@ std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const Wo
     const int label = segmentation.labels(v, u);
     if (label < 0) continue;
     ++all[label].num_corners;
-    all[label].num_moving_corners += corner.residual_px > corner_gate_px;
+    all[label].num_moving_corners += corner.residual_px > moving_gate_px;
   }
   return all;
 }

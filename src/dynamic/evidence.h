@@ -26,7 +26,7 @@ struct ClusterFacts {
 
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
-                                      std::span<const TrackedCorner> corners, float corner_gate_px);
+                                      std::span<const TrackedCorner> corners, float moving_gate_px);
 
 /// One source of evidence: how much it changes the log-odds that a cluster moves.
 class Evidence {

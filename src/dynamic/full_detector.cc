@@ -7,6 +7,7 @@
 
 #include "depthless_growth.h"
 #include "motion_field.h"
+#include "sliding_surface.h"
 
 namespace orbslam {
 namespace {
@@ -34,7 +35,7 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   Judgement judgement = EstimateMotion(*frame, image.id.value);
   const auto references =
       judgement.is_trusted ? history_.FreeSpaceReferences() : std::vector<const ReferenceView*>();
-  judgement.votes = VoteOnFreeSpace(reducer_.grids().cell, frame->depth_m, references, options_.free_space);
+  Vote(*frame, references, &judgement);
   cv::Mat1b undecided;
   cv::compare(judgement.votes.confirmed_static, 0, undecided, cv::CMP_EQ);
   judgement.segmentation = SegmentCells(frame->depth_m, undecided, options_.segmentation.min_cells);
@@ -70,12 +71,25 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
   return judgement;
 }
 
+void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
+                        Judgement* judgement) const {
+  judgement->votes =
+      VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
+  const std::vector<TrackedCorner>& corners = judgement->motion.corners;
+  judgement->moving_gate_px = MovingGatePx(corners, options_.sliding);
+  if (!options_.sliding.use_sliding || !judgement->is_trusted) return;
+  const cv::Mat1b sliding =
+      SlidingCells(frame.depth_m, corners, judgement->moving_gate_px, options_.sliding);
+  judgement->votes.confirmed_static.setTo(0, sliding);
+  judgement->votes.num_static.setTo(0, sliding);
+}
+
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,
                                  Judgement* judgement) const {
   const Segmentation& segmentation = judgement->segmentation;
   const std::vector<ClusterFacts> facts =
       GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->motion.corners,
-                  options_.fusion.corner_gate_px);
+                  judgement->moving_gate_px);
   std::vector<float> log_odds;
   for (const ClusterFacts& cluster : facts)
     log_odds.push_back(FuseEvidence(evidence_, cluster, options_.fusion));

@@ -29,7 +29,8 @@ class FullDetector {
   /// What one frame's judgement passes from step to step; grids of cells.
   struct Judgement {
     CameraMotion motion;
-    bool is_trusted = false;  // the motion, and with it the references
+    bool is_trusted = false;   // the motion, and with it the references
+    float moving_gate_px = 0;  // residual from which on a corner moves
     cv::Mat2f shift;          // where moving things were in the last frame
     cv::Mat1f carried;        // log-odds of the last frame, there
     FreeSpaceVotes votes;
@@ -41,6 +42,8 @@ class FullDetector {
 
   void Begin(std::shared_ptr<const WorkingFrame> frame, DynamicMask* result);
   Judgement EstimateMotion(const WorkingFrame& frame, uint64_t seed);
+  void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
+            Judgement* judgement) const;
   void JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window, Judgement* judgement) const;
   void AskHistogram(const HistogramWindow& window, std::span<const ClusterFacts> facts,
                     std::span<float> log_odds, Judgement* judgement) const;

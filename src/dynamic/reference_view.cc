@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference_view.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace orbslam {
 namespace {
@@ -26,6 +28,27 @@ DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m) {
   envelope.nearest_m.setTo(0, thin);
   envelope.farthest_m.setTo(0, thin);
   return envelope;
+}
+
+cv::Mat1f FillHoles(const cv::Mat1f& depth_m) {
+  constexpr int kLevels = 5;  // halvings: holes of up to a fifth of the image's width
+  std::vector<cv::Mat1f> sums{depth_m}, weights(1);
+  cv::Mat(depth_m > 0).convertTo(weights[0], CV_32F, 1 / 255.0);
+  for (int level = 1; level < kLevels; ++level) {
+    const cv::Size half(std::max(1, sums.back().cols / 2), std::max(1, sums.back().rows / 2));
+    sums.emplace_back(), weights.emplace_back();
+    cv::resize(sums[level - 1], sums[level], half, 0, 0, cv::INTER_AREA);
+    cv::resize(weights[level - 1], weights[level], half, 0, 0, cv::INTER_AREA);
+  }
+  cv::Mat1f filled(sums.back().size(), 0.f);
+  for (int level = kLevels - 1; level >= 0; --level) {
+    cv::Mat1f finer;
+    cv::resize(filled, finer, sums[level].size(), 0, 0, cv::INTER_LINEAR);
+    for (int i = 0; i < static_cast<int>(finer.total()); ++i)
+      if (weights[level](i) > 0) finer(i) = sums[level](i) / weights[level](i);
+    filled = finer;
+  }
+  return filled;
 }
 
 }  // namespace orbslam

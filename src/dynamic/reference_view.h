@@ -17,10 +17,15 @@ struct DepthEnvelope {
 };
 DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m);
 
+/// Depth everywhere: a hole gets the mean of what is known around it, at the finest scale that knows anything
+/// (pull-push; Gortler et al., The Lumigraph, 1996).
+cv::Mat1f FillHoles(const cv::Mat1f& depth_m);
+
 /// A frame of the past, and where it was from the present one.
 struct ReferenceView {
   std::shared_ptr<const WorkingFrame> frame;
   DepthEnvelope envelope;
+  cv::Mat1f filled_depth_m;  // what has no depth, a monitor say, still looks like something
   cv::Mat1b moving;  // cells that were masked then
   Rigid3d reference_from_current;
   int age_frames = 0;

@@ -51,6 +51,7 @@ void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1
                        std::shared_ptr<const HistogramCloud> cloud) {
   ReferenceView view;
   view.envelope = MakeEnvelope(frame->depth_m);
+  view.filled_depth_m = FillHoles(frame->depth_m);
   view.frame = std::move(frame);
   view.moving = moving;
   view.cloud = std::move(cloud);

@@ -148,7 +148,9 @@ Rows DetectorRows(bool* detects_motion, DynamicDetectorOptions* options) {
 }
 
 /// Each source of evidence can be left out, to see what it is worth.
-Rows EvidenceRows(FusionOptions* fusion, GrowthOptions* growth, HistogramOptions* histogram) {
+Rows EvidenceRows(DynamicDetectorOptions* options) {
+  FusionOptions* fusion = &options->fusion;
+  GrowthOptions* growth = &options->growth;
   return {
       {"DynamicDetector.useFreeSpace",
        &fusion->use_free_space,
@@ -161,6 +163,11 @@ Rows EvidenceRows(FusionOptions* fusion, GrowthOptions* growth, HistogramOptions
        kOptional,
        {},
        "corners do not move as the camera says"},
+      {"DynamicDetector.useSliding",
+       &options->sliding.use_sliding,
+       kOptional,
+       {},
+       "texture slides where depth rests"},
       {"DynamicDetector.useAttachment",
        &fusion->use_attachment,
        kOptional,
@@ -173,7 +180,7 @@ Rows EvidenceRows(FusionOptions* fusion, GrowthOptions* growth, HistogramOptions
        {},
        "nine frames show it displaced"},
       {"DynamicDetector.useVelocity",
-       &histogram->use_velocity,
+       &options->histogram.use_velocity,
        kOptional,
        {},
        "speeds of objects, for the report"},
@@ -204,7 +211,7 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(LoopRows(&settings->closes_loops, &settings->loops));
   DynamicDetectorOptions& detector = settings->detector;
   add(DetectorRows(&settings->detects_motion, &detector));
-  add(EvidenceRows(&detector.fusion, &detector.growth, &detector.histogram));
+  add(EvidenceRows(&detector));
   return all;
 }
 

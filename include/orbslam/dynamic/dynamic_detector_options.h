@@ -86,6 +86,20 @@ struct FreeSpaceOptions {
   int min_suspicious_neighbors = 4;  // of the 3 x 3 cells: noise and edges are thinner
 };
 
+/// Surfaces that slide within themselves: what depth alone would confirm as static, but corners see moving.
+struct SlidingOptions {
+  bool use_sliding = true;
+  float gate_medians = 8.f;   // median residuals from which on a corner moves: nine sigma, for blur has long
+                              // tails
+  float min_gate_px = 0.4f;   // grey px: what the camera's own motion is fitted with
+  float max_gate_px = 3.f;    // grey px, 3 sigma in the worst pictures
+  int min_resting = 20;       // corners, for the median; with fewer the gate is the largest
+  float radius_px = 25.f;     // grey px, of the neighbours asked: one cell of the corners' grid around
+  float depth_share = 0.15f;  // of the depth, by which neighbours on one thing may differ: half a person
+  int min_neighbors = 5;      // that can be asked, itself included
+  int max_steps = 6;          // cells from a corner: half the distance between corners
+};
+
 struct SegmentationOptions {
   int min_cells = 20;  // the published 200 points are of a voxel grid; a hand at 2 m is 25 cells
 };
@@ -97,10 +111,8 @@ struct FusionOptions {
   float prior = -1.5f;             // that something moves of which no reference can say anything: one in five
   float free_share = 0.22f;        // of suspicious among judged cells: no evidence either way
   float free_gain = 10.f;          // a unit of that share
-  float max_free = 3.f;            // bound of that part: a reference that is off errs in all cells alike
   float min_judged_share = 0.15f;  // of a cluster, that must be judged for the share to count in full
   float carry_gain = 0.6f;         // of the log-odds of what was there in the last frame
-  float corner_gate_px = 3.f;      // grey px, 3 sigma: a corner that is farther from its static place moves
   float corner_gain = 0.5f;        // a moving corner; a resting one counts a fifth, against
   float max_corner = 1.5f;         // bound of the corners' part
   float attachment_gain = 3.f;     // against, a border that continues into static surfaces all round
@@ -154,6 +166,7 @@ struct DynamicDetectorOptions {
   CameraMotionOptions camera_motion;
   ReferenceOptions references;
   FreeSpaceOptions free_space;
+  SlidingOptions sliding;
   SegmentationOptions segmentation;
   FusionOptions fusion;
   GrowthOptions growth;
