@@ -48,11 +48,17 @@ class CornerEvidence : public Evidence {
     constexpr float kRestingShare = 0.2f;  // a corner on a limb's axis of motion, or on its background, rests
     const auto moving = static_cast<float>(facts.num_moving_corners);
     const float resting = static_cast<float>(facts.num_corners) - moving;
-    return std::clamp(options_.corner_gain * (moving - kRestingShare * resting), -options_.max_corner,
-                      options_.max_corner);
+    return std::clamp(options_.corner_gain * (moving - kRestingShare * resting), -options_.max_resting,
+                      Bound(facts.moving_gate_px));
   }
 
  private:
+  /// Errors of the flow and of the camera's motion are shared by many corners; they grow with the noise.
+  float Bound(float moving_gate_px) const {
+    const float noise = moving_gate_px / SlidingOptions().max_gate_px;
+    return std::min(options_.max_corner, options_.blurred_corner / (noise * noise));
+  }
+
   FusionOptions options_;
 };
 
@@ -117,6 +123,7 @@ std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const Wo
   std::vector<ClusterFacts> all(segmentation.clusters.size());
   for (size_t c = 0; c < all.size(); ++c) {
     const std::vector<int>& cells = segmentation.clusters[c].cells;
+    all[c].moving_gate_px = moving_gate_px;
     all[c].num_cells = static_cast<int>(cells.size());
     for (const int cell : cells) {
       AddCell(segmentation, frame, votes, cell, &all[c]);

@@ -15,12 +15,13 @@ namespace orbslam {
 /// What is known of a cluster.
 struct ClusterFacts {
   int num_cells = 0;
-  int num_judged = 0;      // cells of which some reference can say something
-  int num_suspicious = 0;  // cells in space that was seen empty
-  int num_border = 0;      // cells with a neighbour outside the cluster
-  int num_interior = 0;    // cells whose 8 neighbours belong to the cluster too
-  int num_attached = 0;    // of them, next to a confirmed static cell of the same surface
-  float carried = 0;       // mean log-odds carried over from the last frame
+  int num_judged = 0;        // cells of which some reference can say something
+  int num_suspicious = 0;    // cells in space that was seen empty
+  int num_border = 0;        // cells with a neighbour outside the cluster
+  int num_interior = 0;      // cells whose 8 neighbours belong to the cluster too
+  int num_attached = 0;      // of them, next to a confirmed static cell of the same surface
+  float carried = 0;         // mean log-odds carried over from the last frame
+  float moving_gate_px = 3;  // from which on a corner moves, grey px: nine times this frame's noise
   int num_corners = 0, num_moving_corners = 0;  // followed; not where a static point would be
 };
 

@@ -73,13 +73,12 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
 
 void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                         Judgement* judgement) const {
-  judgement->votes =
-      VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
+  judgement->votes = VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
   const std::vector<TrackedCorner>& corners = judgement->motion.corners;
   judgement->moving_gate_px = MovingGatePx(corners, options_.sliding);
-  if (!options_.sliding.use_sliding || !judgement->is_trusted) return;
-  const cv::Mat1b sliding =
-      SlidingCells(frame.depth_m, corners, judgement->moving_gate_px, options_.sliding);
+  const bool is_sharp = judgement->moving_gate_px <= options_.sliding.max_sharp_px;
+  if (!options_.sliding.use_sliding || !judgement->is_trusted || !is_sharp) return;
+  const cv::Mat1b sliding = SlidingCells(frame.depth_m, corners, judgement->moving_gate_px, options_.sliding);
   judgement->votes.confirmed_static.setTo(0, sliding);
   judgement->votes.num_static.setTo(0, sliding);
 }

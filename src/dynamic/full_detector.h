@@ -31,8 +31,8 @@ class FullDetector {
     CameraMotion motion;
     bool is_trusted = false;   // the motion, and with it the references
     float moving_gate_px = 0;  // residual from which on a corner moves
-    cv::Mat2f shift;          // where moving things were in the last frame
-    cv::Mat1f carried;        // log-odds of the last frame, there
+    cv::Mat2f shift;           // where moving things were in the last frame
+    cv::Mat1f carried;         // log-odds of the last frame, there
     FreeSpaceVotes votes;
     Segmentation segmentation;
     std::vector<ClusterMotion> cluster_motions;  // of each cluster; zero: not asked

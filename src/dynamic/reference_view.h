@@ -26,7 +26,7 @@ struct ReferenceView {
   std::shared_ptr<const WorkingFrame> frame;
   DepthEnvelope envelope;
   cv::Mat1f filled_depth_m;  // what has no depth, a monitor say, still looks like something
-  cv::Mat1b moving;  // cells that were masked then
+  cv::Mat1b moving;          // cells that were masked then
   Rigid3d reference_from_current;
   int age_frames = 0;
   bool is_aligned = true;                       // its own alignment with the present frame succeeded

@@ -14,8 +14,8 @@ namespace orbslam {
 /// last mask, so that it is as sensitive as this frame's flow and camera motion are exact.
 float MovingGatePx(std::span<const TrackedCorner> corners, const SlidingOptions& options);
 
-/// Cells (non-zero) on a surface that slides within itself. The inside of somebody's back is where a back was a
-/// moment ago although he walks: there an unchanged depth says nothing, and only texture tells. A surface
+/// Cells (non-zero) on a surface that slides within itself. The inside of somebody's back is where a back was
+/// a moment ago although he walks: there an unchanged depth says nothing, and only texture tells. A surface
 /// slides around a corner that moves, if its neighbours of similar depth do so too, and alike.
 cv::Mat1b SlidingCells(const cv::Mat1f& depth_m, std::span<const TrackedCorner> corners, float moving_gate_px,
                        const SlidingOptions& options);

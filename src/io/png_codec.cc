@@ -113,8 +113,7 @@ Result<std::string> EncodePng(const cv::Mat& image, int compression_level) {
 
   int code = spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   if (code == SPNG_OK) code = spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, compression_level);
-  if (code == SPNG_OK && compression_level == 1)
-    code = ChooseFastFilters(context.get(), header.bit_depth);
+  if (code == SPNG_OK && compression_level == 1) code = ChooseFastFilters(context.get(), header.bit_depth);
   if (code == SPNG_OK) code = spng_set_ihdr(context.get(), &header);
   if (code == SPNG_OK) {
     code = spng_encode_image(context.get(), image.data, image.total() * image.elemSize(), SPNG_FMT_PNG,

@@ -17,7 +17,8 @@ Result<cv::Mat> DecodePngColor(std::string_view bytes);
 /// CV_16UC1.
 Result<cv::Mat> DecodePngDepth(std::string_view bytes);
 
-/// image: CV_8UC1, CV_8UC3 (RGB) or CV_16UC1, continuous. compression_level: 0-9; 1 is for many pictures a second.
+/// image: CV_8UC1, CV_8UC3 (RGB) or CV_16UC1, continuous. compression_level: 0-9; 1 is for many pictures a
+/// second.
 Result<std::string> EncodePng(const cv::Mat& image, int compression_level);
 
 }  // namespace orbslam

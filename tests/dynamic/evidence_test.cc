@@ -43,6 +43,19 @@ TEST(Evidence, MoreOfItNeverSpeaksTheOtherWay) {
   EXPECT_GT(Fuse(corners), Fuse(Mover()));
 }
 
+TEST(Evidence, CornersWeighByHowExactTheyAre) {
+  ClusterFacts facts = Mover();
+  facts.num_judged = facts.num_suspicious = 0, facts.num_corners = facts.num_moving_corners = 40;
+  float last = Fuse(facts);  // at the largest gate
+  EXPECT_FLOAT_EQ(last, FusionOptions().prior + FusionOptions().blurred_corner);
+  for (const float gate_px : {2.f, 1.f, 0.4f}) {
+    facts.moving_gate_px = gate_px;
+    EXPECT_GE(Fuse(facts), last);
+    last = Fuse(facts);
+  }
+  EXPECT_FLOAT_EQ(last, FusionOptions().prior + FusionOptions().max_corner);
+}
+
 TEST(Evidence, EdgesOfStaticThingsAreDoubted) {
   ClusterFacts thin = Mover(), attached = Mover();
   thin.num_interior = 0, attached.num_attached = attached.num_border;

@@ -93,6 +93,8 @@ struct SlidingOptions {
                               // tails
   float min_gate_px = 0.4f;   // grey px: what the camera's own motion is fitted with
   float max_gate_px = 3.f;    // grey px, 3 sigma in the worst pictures
+  float max_sharp_px = 1.2f;  // gate up to which surfaces are asked: beyond, blur and rolling shutter let
+                              // static ones slide
   int min_resting = 20;       // corners, for the median; with fewer the gate is the largest
   float radius_px = 25.f;     // grey px, of the neighbours asked: one cell of the corners' grid around
   float depth_share = 0.15f;  // of the depth, by which neighbours on one thing may differ: half a person
@@ -114,14 +116,17 @@ struct FusionOptions {
   float min_judged_share = 0.15f;  // of a cluster, that must be judged for the share to count in full
   float carry_gain = 0.6f;         // of the log-odds of what was there in the last frame
   float corner_gain = 0.5f;        // a moving corner; a resting one counts a fifth, against
-  float max_corner = 1.5f;         // bound of the corners' part
-  float attachment_gain = 3.f;     // against, a border that continues into static surfaces all round
-  float free_attachment = 0.4f;    // share of such border that is normal: feet, a hand on the table
-  float max_thin = 2.f;            // against, a cluster nowhere three cells wide,
-  float thick_share = 0.2f;        // up to this share of interior cells (of a strip four cells wide: 0.5)
-  float histogram_gain = 0.5f;     // a unit of (line integral / tau - 1)
-  float max_histogram = 1.f;       // bound of the histogram's part
-  float undecided = 2.f;           // log-odds within which the histogram is asked
+  float max_resting = 1.5f;        // bound of that against: who pauses rests too
+  float max_corner = 5.f;        // bound of that for, in sharp pictures: ten corners that cannot all err ...
+  float blurred_corner = 1.5f;   // ... as they can where the residuals are at their largest gate; between
+                                 // them as the noise's inverse square
+  float attachment_gain = 3.f;   // against, a border that continues into static surfaces all round
+  float free_attachment = 0.4f;  // share of such border that is normal: feet, a hand on the table
+  float max_thin = 2.f;          // against, a cluster nowhere three cells wide,
+  float thick_share = 0.2f;      // up to this share of interior cells (of a strip four cells wide: 0.5)
+  float histogram_gain = 0.5f;   // a unit of (line integral / tau - 1)
+  float max_histogram = 1.f;     // bound of the histogram's part
+  float undecided = 2.f;         // log-odds within which the histogram is asked
 };
 
 /// Cells without depth, log-odds a frame.
