@@ -21,6 +21,11 @@ struct TrackedCorner {
                           // to the nearest of all places where one at any depth from 0.3 m on would be
 };
 
+/// The cell in which it is now; may lie outside the grid.
+inline cv::Point CellOf(const TrackedCorner& corner) {
+  return {cvFloor(corner.current.x / 2), cvFloor(corner.current.y / 2)};
+}
+
 /// How the camera moved from the last frame to this one. Colour and depth images are taken at different times
 /// (up to 15 ms apart): each has a motion of its own.
 struct CameraMotion {

@@ -49,16 +49,10 @@ class CornerEvidence : public Evidence {
     const auto moving = static_cast<float>(facts.num_moving_corners);
     const float resting = static_cast<float>(facts.num_corners) - moving;
     return std::clamp(options_.corner_gain * (moving - kRestingShare * resting), -options_.max_resting,
-                      Bound(facts.moving_gate_px));
+                      options_.max_corner * facts.sharpness * facts.sharpness);
   }
 
  private:
-  /// Errors of the flow and of the camera's motion are shared by many corners; they grow with the noise.
-  float Bound(float moving_gate_px) const {
-    const float noise = moving_gate_px / SlidingOptions().max_gate_px;
-    return std::min(options_.max_corner, options_.blurred_corner / (noise * noise));
-  }
-
   FusionOptions options_;
 };
 
@@ -119,11 +113,11 @@ void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const 
 
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
-                                      std::span<const TrackedCorner> corners, float moving_gate_px) {
+                                      std::span<const TrackedCorner> corners, const CornerGate& gate) {
   std::vector<ClusterFacts> all(segmentation.clusters.size());
   for (size_t c = 0; c < all.size(); ++c) {
     const std::vector<int>& cells = segmentation.clusters[c].cells;
-    all[c].moving_gate_px = moving_gate_px;
+    all[c].sharpness = gate.sharpness;
     all[c].num_cells = static_cast<int>(cells.size());
     for (const int cell : cells) {
       AddCell(segmentation, frame, votes, cell, &all[c]);
@@ -131,12 +125,12 @@ std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const Wo
     }
   }
   for (const TrackedCorner& corner : corners) {
-    const int u = cvFloor(corner.current.x / 2), v = cvFloor(corner.current.y / 2);
-    if (u < 0 || v < 0 || u >= frame.depth_m.cols || v >= frame.depth_m.rows) continue;
-    const int label = segmentation.labels(v, u);
+    const cv::Point cell = CellOf(corner);
+    if (!cv::Rect({0, 0}, frame.depth_m.size()).contains(cell)) continue;
+    const int label = segmentation.labels(cell);
     if (label < 0) continue;
     ++all[label].num_corners;
-    all[label].num_moving_corners += corner.residual_px > moving_gate_px;
+    all[label].num_moving_corners += corner.residual_px > gate.moving_px;
   }
   return all;
 }

@@ -9,25 +9,26 @@
 #include "free_space.h"
 #include "orbslam/dynamic/dynamic_detector_options.h"
 #include "segmenter.h"
+#include "sliding_surface.h"
 
 namespace orbslam {
 
 /// What is known of a cluster.
 struct ClusterFacts {
   int num_cells = 0;
-  int num_judged = 0;        // cells of which some reference can say something
-  int num_suspicious = 0;    // cells in space that was seen empty
-  int num_border = 0;        // cells with a neighbour outside the cluster
-  int num_interior = 0;      // cells whose 8 neighbours belong to the cluster too
-  int num_attached = 0;      // of them, next to a confirmed static cell of the same surface
-  float carried = 0;         // mean log-odds carried over from the last frame
-  float moving_gate_px = 3;  // from which on a corner moves, grey px: nine times this frame's noise
+  int num_judged = 0;      // cells of which some reference can say something
+  int num_suspicious = 0;  // cells in space that was seen empty
+  int num_border = 0;      // cells with a neighbour outside the cluster
+  int num_interior = 0;    // cells whose 8 neighbours belong to the cluster too
+  int num_attached = 0;    // of them, next to a confirmed static cell of the same surface
+  float carried = 0;       // mean log-odds carried over from the last frame
+  float sharpness = 1;     // of the picture, CornerGate's
   int num_corners = 0, num_moving_corners = 0;  // followed; not where a static point would be
 };
 
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
-                                      std::span<const TrackedCorner> corners, float moving_gate_px);
+                                      std::span<const TrackedCorner> corners, const CornerGate& gate);
 
 /// One source of evidence: how much it changes the log-odds that a cluster moves.
 class Evidence {

@@ -75,10 +75,9 @@ void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView
                         Judgement* judgement) const {
   judgement->votes = VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
   const std::vector<TrackedCorner>& corners = judgement->motion.corners;
-  judgement->moving_gate_px = MovingGatePx(corners, options_.sliding);
-  const bool is_sharp = judgement->moving_gate_px <= options_.sliding.max_sharp_px;
-  if (!options_.sliding.use_sliding || !judgement->is_trusted || !is_sharp) return;
-  const cv::Mat1b sliding = SlidingCells(frame.depth_m, corners, judgement->moving_gate_px, options_.sliding);
+  judgement->gate = MakeCornerGate(corners, options_.sliding);
+  if (!options_.sliding.use_sliding || !judgement->is_trusted || !judgement->gate.IsSharp()) return;
+  const cv::Mat1b sliding = SlidingCells(frame.depth_m, corners, judgement->gate.moving_px, options_.sliding);
   judgement->votes.confirmed_static.setTo(0, sliding);
   judgement->votes.num_static.setTo(0, sliding);
 }
@@ -86,9 +85,8 @@ void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,
                                  Judgement* judgement) const {
   const Segmentation& segmentation = judgement->segmentation;
-  const std::vector<ClusterFacts> facts =
-      GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->motion.corners,
-                  judgement->moving_gate_px);
+  const std::vector<ClusterFacts> facts = GatherFacts(
+      segmentation, frame, judgement->votes, judgement->carried, judgement->motion.corners, judgement->gate);
   std::vector<float> log_odds;
   for (const ClusterFacts& cluster : facts)
     log_odds.push_back(FuseEvidence(evidence_, cluster, options_.fusion));

@@ -29,10 +29,10 @@ class FullDetector {
   /// What one frame's judgement passes from step to step; grids of cells.
   struct Judgement {
     CameraMotion motion;
-    bool is_trusted = false;   // the motion, and with it the references
-    float moving_gate_px = 0;  // residual from which on a corner moves
-    cv::Mat2f shift;           // where moving things were in the last frame
-    cv::Mat1f carried;         // log-odds of the last frame, there
+    bool is_trusted = false;  // the motion, and with it the references
+    CornerGate gate;          // from which residual on a corner moves
+    cv::Mat2f shift;          // where moving things were in the last frame
+    cv::Mat1f carried;        // log-odds of the last frame, there
     FreeSpaceVotes votes;
     Segmentation segmentation;
     std::vector<ClusterMotion> cluster_motions;  // of each cluster; zero: not asked

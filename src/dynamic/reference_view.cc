@@ -31,17 +31,17 @@ DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m) {
 }
 
 cv::Mat1f FillHoles(const cv::Mat1f& depth_m) {
-  constexpr int kLevels = 5;  // halvings: holes of up to a fifth of the image's width
   std::vector<cv::Mat1f> sums{depth_m}, weights(1);
   cv::Mat(depth_m > 0).convertTo(weights[0], CV_32F, 1 / 255.0);
-  for (int level = 1; level < kLevels; ++level) {
+  while (sums.back().total() > 1) {
     const cv::Size half(std::max(1, sums.back().cols / 2), std::max(1, sums.back().rows / 2));
-    sums.emplace_back(), weights.emplace_back();
-    cv::resize(sums[level - 1], sums[level], half, 0, 0, cv::INTER_AREA);
-    cv::resize(weights[level - 1], weights[level], half, 0, 0, cv::INTER_AREA);
+    cv::Mat1f sum, weight;
+    cv::resize(sums.back(), sum, half, 0, 0, cv::INTER_AREA);
+    cv::resize(weights.back(), weight, half, 0, 0, cv::INTER_AREA);
+    sums.push_back(sum), weights.push_back(weight);
   }
-  cv::Mat1f filled(sums.back().size(), 0.f);
-  for (int level = kLevels - 1; level >= 0; --level) {
+  cv::Mat1f filled(1, 1, 0.f);
+  for (size_t level = sums.size(); level-- > 0;) {
     cv::Mat1f finer;
     cv::resize(filled, finer, sums[level].size(), 0, 0, cv::INTER_LINEAR);
     for (int i = 0; i < static_cast<int>(finer.total()); ++i)

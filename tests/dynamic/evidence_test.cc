@@ -46,11 +46,10 @@ TEST(Evidence, MoreOfItNeverSpeaksTheOtherWay) {
 TEST(Evidence, CornersWeighByHowExactTheyAre) {
   ClusterFacts facts = Mover();
   facts.num_judged = facts.num_suspicious = 0, facts.num_corners = facts.num_moving_corners = 40;
-  float last = Fuse(facts);  // at the largest gate
-  EXPECT_FLOAT_EQ(last, FusionOptions().prior + FusionOptions().blurred_corner);
-  for (const float gate_px : {2.f, 1.f, 0.4f}) {
-    facts.moving_gate_px = gate_px;
-    EXPECT_GE(Fuse(facts), last);
+  float last = FusionOptions().prior;
+  for (const float sharpness : {0.4f, 0.6f, 1.f}) {
+    facts.sharpness = sharpness;
+    EXPECT_GT(Fuse(facts), last);
     last = Fuse(facts);
   }
   EXPECT_FLOAT_EQ(last, FusionOptions().prior + FusionOptions().max_corner);

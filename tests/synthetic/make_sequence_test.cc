@@ -13,6 +13,7 @@
 #include "orbslam/io/tum_sequence.h"
 #include "orbslam/synthetic/synthetic_sequence.h"
 #include "orbslam/util/file.h"
+#include "util/temp_dir.h"
 
 namespace orbslam {
 namespace {
@@ -21,22 +22,15 @@ namespace fs = std::filesystem;
 
 class MakeSequence : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "make_sequence_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// The exit code; what the program prints is in folder_/log.
+  /// The exit code; what the program prints is in the file log.
   int Run(const std::string& arguments) const {
     const std::string command = std::string(MAKE_SEQUENCE) + ' ' + arguments + " > " + Path("log") + " 2>&1";
     return WEXITSTATUS(std::system(command.c_str()));
   }
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Path(const std::string& name) const { return dir_.Path(name); }
   std::string Log() const { return *ReadFile(Path("log")); }
 
-  fs::path folder_;
+  TempDir dir_;
 };
 
 TEST_F(MakeSequence, FilesHoldTheFramesAndTheGroundTruth) {

@@ -93,12 +93,13 @@ struct SlidingOptions {
                               // tails
   float min_gate_px = 0.4f;   // grey px: what the camera's own motion is fitted with
   float max_gate_px = 3.f;    // grey px, 3 sigma in the worst pictures
-  float max_sharp_px = 1.2f;  // gate up to which surfaces are asked: beyond, blur and rolling shutter let
-                              // static ones slide
+  float max_sharp_px = 1.2f;  // gate of a sharp picture: in others blur and the rolling shutter let static
+                              // surfaces slide too
   int min_resting = 20;       // corners, for the median; with fewer the gate is the largest
   float radius_px = 25.f;     // grey px, of the neighbours asked: one cell of the corners' grid around
   float depth_share = 0.15f;  // of the depth, by which neighbours on one thing may differ: half a person
   int min_neighbors = 5;      // that can be asked, itself included
+  float min_likeness = 0.7f;  // length of the sum of their motions as share of the sum of lengths: 45 degrees
   int max_steps = 6;          // cells from a corner: half the distance between corners
 };
 
@@ -117,9 +118,8 @@ struct FusionOptions {
   float carry_gain = 0.6f;         // of the log-odds of what was there in the last frame
   float corner_gain = 0.5f;        // a moving corner; a resting one counts a fifth, against
   float max_resting = 1.5f;        // bound of that against: who pauses rests too
-  float max_corner = 5.f;        // bound of that for, in sharp pictures: ten corners that cannot all err ...
-  float blurred_corner = 1.5f;   // ... as they can where the residuals are at their largest gate; between
-                                 // them as the noise's inverse square
+  float max_corner = 5.f;        // bound of that for, in a sharp picture: ten corners, which cannot all err;
+                                 // else less by the square of the noise, for they can all share an error
   float attachment_gain = 3.f;   // against, a border that continues into static surfaces all round
   float free_attachment = 0.4f;  // share of such border that is normal: feet, a hand on the table
   float max_thin = 2.f;          // against, a cluster nowhere three cells wide,
