@@ -61,4 +61,9 @@ FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_
   return votes;
 }
 
+void WithdrawStatic(const cv::Mat1b& cells, FreeSpaceVotes* votes) {
+  votes->confirmed_static.setTo(0, cells);
+  votes->num_static.setTo(0, cells);
+}
+
 }  // namespace orbslam

@@ -20,4 +20,7 @@ FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_
                                std::span<const ReferenceView* const> references,
                                const FreeSpaceOptions& options);
 
+/// Takes back what says that these cells (non-zero) are static; what says that they are not stays.
+void WithdrawStatic(const cv::Mat1b& cells, FreeSpaceVotes* votes);
+
 }  // namespace orbslam

@@ -77,9 +77,8 @@ void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView
   const std::vector<TrackedCorner>& corners = judgement->motion.corners;
   judgement->gate = MakeCornerGate(corners, options_.sliding);
   if (!options_.sliding.use_sliding || !judgement->is_trusted || !judgement->gate.IsSharp()) return;
-  const cv::Mat1b sliding = SlidingCells(frame.depth_m, corners, judgement->gate.moving_px, options_.sliding);
-  judgement->votes.confirmed_static.setTo(0, sliding);
-  judgement->votes.num_static.setTo(0, sliding);
+  WithdrawStatic(SlidingCells(frame.depth_m, corners, judgement->gate.moving_px, options_.sliding),
+                 &judgement->votes);
 }
 
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,

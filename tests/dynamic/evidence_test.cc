@@ -55,6 +55,12 @@ TEST(Evidence, CornersWeighByHowExactTheyAre) {
   EXPECT_FLOAT_EQ(last, FusionOptions().prior + FusionOptions().max_corner);
 }
 
+TEST(Evidence, WhoPausesIsNotForgottenForHisRestingCorners) {
+  ClusterFacts facts = Mover();
+  facts.num_judged = facts.num_suspicious = 0, facts.num_corners = 1000;
+  EXPECT_FLOAT_EQ(Fuse(facts), FusionOptions().prior - FusionOptions().max_resting);
+}
+
 TEST(Evidence, EdgesOfStaticThingsAreDoubted) {
   ClusterFacts thin = Mover(), attached = Mover();
   thin.num_interior = 0, attached.num_attached = attached.num_border;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "background_view.h"
 #include "orbslam/camera/depth_model.h"
 #include "orbslam/util/random.h"
 #include "scene_history.h"
@@ -30,7 +31,7 @@ ReferenceView Reference(const cv::Mat1f& depth) {
   return view;
 }
 
-double Share(const cv::Mat1b& image, const cv::Rect& where) {
+double Share(const cv::Mat& image, const cv::Rect& where) {
   return cv::countNonZero(image(where)) / static_cast<double>(where.area());
 }
 
@@ -78,6 +79,38 @@ TEST(FreeSpace, FollowsTheCamera) {
   EXPECT_GT(Share(Vote(Depth(2.5f, 0, 2), reference).confirmed_static, cv::Rect(40, 30, 80, 60)), 0.99);
   reference.reference_from_current.translation.z() = 0;
   EXPECT_EQ(Share(Vote(Depth(2.5f, 0, 2), reference).confirmed_static, cv::Rect(40, 30, 80, 60)), 0);
+}
+
+TEST(FreeSpace, WhatIsWithdrawnIsNeitherStaticNorJudgedSoButStaysSuspicious) {
+  const FreeSpaceVotes before = Vote(Depth(3, 2, 1), Reference(Depth(3, 0, 2)));
+  FreeSpaceVotes votes = Vote(Depth(3, 2, 1), Reference(Depth(3, 0, 2)));
+  cv::Mat1b cells(votes.num_static.size(), uint8_t{0});
+  const cv::Rect where(0, 0, 80, cells.rows);
+  cells(where).setTo(255);
+  WithdrawStatic(cells, &votes);
+  ASSERT_GT(cv::countNonZero(before.num_static(where)), 0);
+  EXPECT_EQ(cv::countNonZero(votes.num_static(where)), 0);
+  EXPECT_EQ(cv::countNonZero(votes.confirmed_static(where)), 0);
+  EXPECT_EQ(cv::countNonZero(votes.suspicious != before.suspicious), 0);
+  const cv::Rect rest(80, 0, cells.cols - 80, cells.rows);
+  EXPECT_EQ(cv::countNonZero(votes.num_static(rest) != before.num_static(rest)), 0);
+}
+
+TEST(Background, ABlackMonitorIsExpectedAlthoughNothingWasMeasuredThere) {
+  const cv::Rect monitor(40, 40, 60, 40);
+  auto frame = std::make_shared<WorkingFrame>();
+  frame->depth_m = Depth(3, 0, 1);
+  frame->depth_m(monitor).setTo(0);
+  frame->pyramid.resize(3, cv::Mat1f(frame->depth_m.size(), 120.f));
+  frame->pyramid[1] = cv::Mat1f(frame->depth_m.size(), 120.f);
+  frame->pyramid[1](monitor).setTo(10);
+  SceneHistory history(kCamera, {});
+  history.Add(frame, cv::Mat1b(frame->depth_m.size(), uint8_t{0}), nullptr);
+  const ReferenceView* references[] = {history.Back(1)};
+  const BackgroundView view = RenderBackground(kCamera, *frame, references);
+  const cv::Rect inside(monitor.x + 2, monitor.y + 2, monitor.width - 4, monitor.height - 4);
+  EXPECT_EQ(Share(view.depth_m > 0, inside), 1);
+  EXPECT_EQ(Share(view.brightest < 20, inside), 1);
 }
 
 }  // namespace

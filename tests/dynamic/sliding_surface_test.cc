@@ -69,8 +69,20 @@ TEST(SlidingSurface, CornersThatDisagreeAreNoSurface) {
 
 TEST(SlidingSurface, ACornerAloneIsNotBelieved) {
   std::vector<TrackedCorner> corners = Corners({});
-  corners[corners.size() / 2].excess = {5, 0}, corners[corners.size() / 2].residual_px = 5;
+  TrackedCorner& odd = corners[corners.size() / 2];
+  odd.excess = {5, 0}, odd.residual_px = 5;
   EXPECT_EQ(cv::countNonZero(Sliding(corners)), 0);
+  EXPECT_EQ(cv::countNonZero(Sliding({odd})), 0);
+}
+
+TEST(SlidingSurface, EndsWhereTheDepthJumps) {
+  std::vector<TrackedCorner> corners = Corners({1, 0});
+  const SlidingOptions options;
+  const float moving_px = MakeCornerGate(corners, options).moving_px;
+  std::erase_if(corners, [](const TrackedCorner& corner) { return corner.depth_m > 2; });  // none on the wall
+  cv::Mat1b sliding = SlidingCells(BoardBeforeWall(), corners, moving_px, options);
+  EXPECT_EQ(cv::countNonZero(sliding(kBoard)), kBoard.area());
+  EXPECT_EQ(cv::countNonZero(sliding), kBoard.area());
 }
 
 TEST(SlidingSurface, TheGateGrowsWithTheNoiseWithinItsBounds) {
