@@ -28,8 +28,9 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   DynamicMask result;
   result.frame_id = image.id;
   const auto frame = std::make_shared<const WorkingFrame>(reducer_.Reduce(image));
-  if (history_.Back(1) == nullptr) {
-    Begin(frame, &result);
+  result.fail_open_reason = ReasonToBegin(frame->timestamp_s);
+  if (!result.fail_open_reason.empty()) {
+    Begin(frame);
     return result;
   }
   Judgement judgement = EstimateMotion(*frame, image.id.value);
@@ -51,8 +52,23 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   return result;
 }
 
-void FullDetector::Begin(std::shared_ptr<const WorkingFrame> frame, DynamicMask* result) {
-  result->fail_open_reason = "there is no earlier frame to compare with";
+std::string FullDetector::ReasonToBegin(double timestamp_s) const {
+  const ReferenceView* last = history_.Back(1);
+  if (last == nullptr) return "there is no earlier frame to compare with";
+  if (timestamp_s - last->frame->timestamp_s > options_.fail_open.max_gap_s)
+    return "the frame before is too old to compare with";
+  return {};
+}
+
+void FullDetector::Forget() {
+  history_.Clear();
+  motion_estimator_.Reset();
+  tracker_.Reset();
+  untrusted_frames_ = covered_frames_ = 0;
+}
+
+void FullDetector::Begin(std::shared_ptr<const WorkingFrame> frame) {
+  Forget();
   const cv::Mat1b nothing(frame->depth_m.size(), uint8_t{0});
   log_odds_ = cv::Mat1f::zeros(frame->depth_m.size());
   auto cloud = MakeHistogramCloud(reducer_.grids().cell, frame->depth_m, options_.histogram.stride);
@@ -150,16 +166,18 @@ void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const Ref
 
 std::string FullDetector::FailOpenReason(const Judgement& judgement) {
   if (untrusted_frames_ > options_.fail_open.max_untrusted_frames) {
-    history_.Clear();
-    motion_estimator_.Reset();
-    tracker_.Reset();
-    untrusted_frames_ = 0;
+    Forget();
     return "the camera's motion cannot be told: " + judgement.motion.failure;
   }
-  const bool is_moving = cv::countNonZero(judgement.moving) > 0;
-  if (!judgement.is_trusted && !is_moving) return judgement.motion.failure;
-  const double covered = options_.fail_open.max_masked_share * static_cast<double>(judgement.moving.total());
-  covered_frames_ = cv::countNonZero(judgement.moving) > covered ? covered_frames_ + 1 : 0;
+  const double masked_share =
+      static_cast<double>(cv::countNonZero(judgement.moving)) / static_cast<double>(judgement.moving.total());
+  if (!judgement.is_trusted && masked_share == 0) return judgement.motion.failure;
+  const bool is_early = history_.Back(options_.fail_open.early_frames) == nullptr;
+  if (is_early && masked_share > options_.fail_open.max_early_share) {
+    Forget();
+    return "most of the first picture seems to move";
+  }
+  covered_frames_ = masked_share > options_.fail_open.max_masked_share ? covered_frames_ + 1 : 0;
   if (covered_frames_ > options_.fail_open.max_covered_frames) return "everything seems to move";
   return {};
 }

@@ -40,7 +40,10 @@ class FullDetector {
     cv::Mat1b moving;                            // the mask, with its rim
   };
 
-  void Begin(std::shared_ptr<const WorkingFrame> frame, DynamicMask* result);
+  /// Why there is nothing to compare with a frame of that time; empty if there is.
+  std::string ReasonToBegin(double timestamp_s) const;
+  void Forget();
+  void Begin(std::shared_ptr<const WorkingFrame> frame);
   Judgement EstimateMotion(const WorkingFrame& frame, uint64_t seed);
   void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
             Judgement* judgement) const;

@@ -17,8 +17,8 @@ struct QuaternionRotation {
 
   /// Eigen's storage: x y z w.
   explicit QuaternionRotation(const double* xyzw) : u(xyzw[0], xyzw[1], xyzw[2]), w(xyzw[3]) {
-    const Eigen::Matrix3d cross = CrossMatrix(u);
-    matrix = Eigen::Matrix3d::Identity() + 2 * w * cross + 2 * cross * cross;
+    matrix.noalias() = 2 * u * u.transpose() + 2 * w * CrossMatrix(u);  // [u]x^2 = u u' - |u|^2 I
+    matrix.diagonal().array() += 1 - 2 * u.squaredNorm();
   }
 
   /// d (R(q) v) / d (x, y, z, w).

@@ -120,6 +120,22 @@ TEST(DynamicDetector, RecoversFromALossOfDepth) {
   EXPECT_EQ(mask.fail_open_reason, "");
 }
 
+TEST(DynamicDetector, ComparesNothingAcrossAGapInTime) {
+  const RenderedRoom room;
+  DynamicDetector detector(room.camera, DepthModel{}, {});
+  for (uint32_t frame = 0; frame < 20; ++frame)
+    detector.Process(room.Render(frame, {}, AcrossTheAxis(frame / 30.0)));
+  const Rigid3d elsewhere(So3Exp({0, 0.3, 0}), {0.4, 0, 0.2});
+  DynamicMask mask = detector.Process(room.Render(35, elsewhere, {}));
+  EXPECT_EQ(mask.MaskedShare(), 0);
+  EXPECT_THAT(mask.fail_open_reason, testing::HasSubstr("too old"));
+  for (uint32_t frame = 36; frame < 45; ++frame) {
+    mask = detector.Process(room.Render(frame, elsewhere, {}));
+    EXPECT_EQ(mask.fail_open_reason, "");
+    EXPECT_LT(mask.MaskedShare(), 0.01) << frame;
+  }
+}
+
 TEST(DynamicDetector, FreeSpaceIsWhatFindsMovers) {
   DynamicDetectorOptions without;
   without.fusion.use_free_space = false;

@@ -161,9 +161,14 @@ struct HistogramOptions {
 
 /// When not to mask.
 struct FailOpenOptions {
+  double max_gap_s = 0.25;  // between two frames: over more, corners and ICP lose their way
   int max_untrusted_frames = 15;   // half a second on what was moving before; then nothing is masked
   double max_masked_share = 0.95;  // of the image: nothing is left to hold on to. Someone who passes closely
   int max_covered_frames = 15;     // does that for half a second; longer, it is our error
+  // In the first frames there is little to compare with, and no motion to expect: what moves alike in most of
+  // the picture is then the room.
+  int early_frames = 4;
+  double max_early_share = 0.5;
 };
 
 struct DynamicDetectorOptions {
