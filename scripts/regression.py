@@ -29,6 +29,7 @@ FIGURES = {
     "ate_m": ("ATE RMSE with the detector", " m", 1),
     "ate_ratio": ("ATE RMSE with the detector over that without", "", 1),
     "ate_ratio_empty": ("ATE RMSE over that of the same path with nobody there", "", 1),
+    "ate_ratio_hidden": ("ATE RMSE over that with nobody there and the same pixels hidden", "", 1),
     "eta_percent": ("improvement eta of the ATE RMSE", " %", 1),
     "coverage": ("coverage with the detector", " %", 100),
     "recall": ("recall of the masks", " %", 100),
@@ -70,11 +71,12 @@ def bounds_of(name, bounds):
 def figures_of(result):
     """The values of FIGURES in the result of a sequence; None where not known."""
     without, with_it = result["without"], result["with"]
-    ate, masks, empty = with_it["ate"]["rmse"], with_it["masks"] or {}, result["empty_ate_m"]
+    ate, masks, empty = with_it["ate"]["rmse"], with_it["masks"] or {}, result["empty"]
 
     def ratio(baseline):
         return ate / baseline if baseline else None
-    return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]), "ate_ratio_empty": ratio(empty),
+    return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]), "ate_ratio_empty": ratio(empty.get("ate_m")),
+            "ate_ratio_hidden": ratio(empty.get("hidden_ate_m")),
             "eta_percent": result["improvement_percent"]["ate"]["rmse"],
             "coverage": with_it["coverage"]["ratio"],
             **{name: masks.get(name) for name in ("recall", "precision", "iou", "wrongly_masked")},
@@ -102,14 +104,19 @@ def broken_bounds(name, figures, bounds):
     return lines
 
 
-def empty_ate(sequence, output, programs):
-    """ATE RMSE, m, of a synthetic camera path with nobody there, without the detector."""
+def measure_empty(sequence, output, programs):
+    """ATE RMSE, m, of a synthetic camera path with nobody there, without the detector: of the whole pictures,
+    and without the pixels where somebody would be, which no method can see. Empty for real sequences."""
     if sequence.recipe is None:
-        return None
+        return {}
     empty = runs.locate(f"synthetic_static{sequence.name[sequence.recipe.end('script'):]}", output)
     runs.make(empty, programs)
-    folder = os.path.join(output, empty.name, "without")
-    return runs.run_without_detector(empty, folder, programs)["ate"]["rmse"]
+    folder = os.path.join(output, empty.name)
+    hidden = ["--mask-dir", os.path.join(sequence.folder, "mask")]
+    whole_run = runs.run_without_detector(empty, os.path.join(folder, "without"), programs)
+    hidden_folder = os.path.join(folder, f"hidden_{sequence.name}")
+    hidden_run = runs.run_without_detector(empty, hidden_folder, programs, hidden)
+    return {"ate_m": whole_run["ate"]["rmse"], "hidden_ate_m": hidden_run["ate"]["rmse"]}
 
 
 def measure(sequence, bounds, output, programs):
@@ -120,10 +127,10 @@ def measure(sequence, bounds, output, programs):
     without = runs.run_without_detector(sequence, os.path.join(folder, "without"), programs)
     runs.say(f"{sequence.name}: tracking with the detector")
     with_it, _ = runs.run_with_detector(sequence, os.path.join(folder, "with"), programs)
-    wants_empty = any(key.endswith("ate_ratio_empty") for key in bounds or {})
+    wants_empty = any("ate_ratio_" in key for key in bounds or {})
     return {"without": without, "with": with_it,
             "improvement_percent": compare_runs.compare(without, with_it),
-            "empty_ate_m": empty_ate(sequence, output, programs) if wants_empty else None}
+            "empty": measure_empty(sequence, output, programs) if wants_empty else {}}
 
 
 def improvement_tables(results):
@@ -162,6 +169,7 @@ def parse_arguments():
                         help="a folder, a name such as fr3_walking_xyz, or synthetic_SCRIPT_MOTION[_seedN]"
                              "[_FRAMES] (default: all real ones that are there)")
     parser.add_argument("--all", action="store_true", help="also the synthetic walking with other motions")
+    parser.add_argument("--only", action="store_true", help="the sequences named and nothing else")
     parser.add_argument("--quick", action="store_true",
                         help="under two minutes: 150 frames of walking_xyz, one composite")
     parser.add_argument("--bounds", default=BOUNDS, metavar="FILE",
@@ -171,13 +179,17 @@ def parse_arguments():
                         help="where sequences and runs go (default: results/regression)")
     runs.add_options(parser)
     args = parser.parse_args()
-    if args.all and args.quick:
-        parser.error("--all and --quick exclude each other")
+    if args.all + args.quick + args.only > 1:
+        parser.error("--all, --quick and --only exclude each other")
+    if args.only and not args.sequences:
+        parser.error("--only wants the names of sequences")
     return args
 
 
 def choose(args):
     """Names of the sequences to run, each once."""
+    if args.only:
+        return list(dict.fromkeys(args.sequences))
     real = runs.COMPOSITES[:1] if args.quick else runs.REAL_SEQUENCES
     others = args.sequences or [name for name in real if runs.find_real(name)]
     motions = OTHER_MOTIONS if args.all else []

@@ -213,7 +213,7 @@ def run_with_detector(sequence, folder, programs, settings=None, max_frames=0):
             "masks": mask_figures(sequence, masks, max_frames), "detector": detector_figures(report)}, report
 
 
-def run_without_detector(sequence, folder, programs, max_frames=0):
+def run_without_detector(sequence, folder, programs, options=()):
     """The same without the detector; errors only."""
-    track(sequence, folder, programs, ["--no-detector"], max_frames=max_frames)
-    return trajectory_figures(sequence, folder, max_frames)
+    track(sequence, folder, programs, ["--no-detector", *options])
+    return trajectory_figures(sequence, folder)

@@ -7,6 +7,7 @@
 
 #include "depthless_growth.h"
 #include "motion_field.h"
+#include "plane_split.h"
 #include "sliding_surface.h"
 
 namespace orbslam {
@@ -39,7 +40,7 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   Vote(*frame, references, &judgement);
   cv::Mat1b undecided;
   cv::compare(judgement.votes.confirmed_static, 0, undecided, cv::CMP_EQ);
-  judgement.segmentation = SegmentCells(frame->depth_m, undecided, options_.segmentation.min_cells);
+  judgement.segmentation = SegmentSurfaces(reducer_.grids().cell, *frame, undecided, options_.segmentation);
   const HistogramWindow window(reducer_.grids().cell, history_, *frame, options_.histogram);
   JudgeClusters(*frame, window, &judgement);
   JudgeDepthless(*frame, references, &judgement);

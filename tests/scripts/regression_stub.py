@@ -63,7 +63,7 @@ def rgbd_tum():
     parser = argparse.ArgumentParser()
     for name in ("vocabulary", "settings", "sequence"):
         parser.add_argument(name)
-    for name in ("--output-dir", "--save-masks"):
+    for name in ("--output-dir", "--save-masks", "--mask-dir"):
         parser.add_argument(name)
     for name in ("--sequential", "--quiet", "--no-detector"):
         parser.add_argument(name, action="store_true")
@@ -72,6 +72,8 @@ def rgbd_tum():
     settings = pathlib.Path(args.settings).read_text()
     if "fail" in settings and not args.no_detector:
         sys.exit("warning: something\nrgbd_tum: nothing was tracked")
+    if args.mask_dir and not pathlib.Path(args.mask_dir, f"{0:.6f}.png").exists():
+        sys.exit("rgbd_tum: no masks")
     output, sequence = pathlib.Path(args.output_dir), pathlib.Path(args.sequence)
     truth = (sequence / "groundtruth.txt").read_text().splitlines()
     rows = [line.split() for line in truth[:args.max_frames]]

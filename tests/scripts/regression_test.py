@@ -71,8 +71,15 @@ class RegressionTest(StubbedTest):
             self.assertEqual(list(self.table_cells(output, "ATE")), [first, NAME])
             self.assertIn(f"no bounds, only reported: {first}, {NAME}\n", output)
 
+    def test_only_what_is_named_is_run_if_asked_for(self):
+        output = self.run_ok("--only", NAME, *self.bounds("")).stdout
+        self.assertEqual(list(self.table_cells(output, "ATE")), [NAME])
+        for options in (["--only"], ["--only", "--quick", NAME]):
+            self.assertEqual(self.call(*options).returncode, 2)
+
     def test_within_the_bounds_it_succeeds(self):
-        bounds = "{max_ate_m: 0.1, max_ate_ratio_empty: 0.11, min_eta_percent: 89, min_recall: 1}"
+        bounds = ("{max_ate_m: 0.1, max_ate_ratio_empty: 0.11, max_ate_ratio_hidden: 0.11, "
+                  "min_eta_percent: 89, min_recall: 1}")
         result = self.run_ok("--quick", NAME, *self.bounds(f"{NAME}: {bounds}"))
         self.assertIn("all figures are within their bounds", result.stdout)
 

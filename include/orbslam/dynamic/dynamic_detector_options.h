@@ -105,6 +105,8 @@ struct SlidingOptions {
 
 struct SegmentationOptions {
   int min_cells = 20;  // the published 200 points are of a voxel grid; a hand at 2 m is 25 cells
+  bool use_planes = true;    // large flat parts are judged by themselves
+  float min_plane_m2 = 0.5f;  // what is as large and flat is a floor, a wall, a table, not a part of a person
 };
 
 /// Evidence about a cluster, log-odds.
