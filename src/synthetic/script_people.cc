@@ -62,7 +62,7 @@ void AddClose(const Stage& stage, uint64_t seed, Rng* rng, ScriptCast* cast) {
   constexpr double kTallM = 1.90;  // so that the shoulders reach the picture's upper edge
   const Figure figure(seed, 0, kTallM);
   Director director(stage, figure, Side(rng), 0.5, 1.5, rng->Uniform(0.4, 0.55), rng);
-  director.Wait(0.3, 0.8).Go(0, 1.1).Face().Go(0, 0.5).Wait(2.0, 3.0).Go(-0.8, 1.1).Go(-1.75, 1.2);
+  director.Wait(0.3, 0.8).Go(0, 1.1).Face().Go(-0.17, 0.5).Wait(2.0, 3.0).Go(-0.8, 1.1).Go(-1.75, 1.2);
   director.Wait(0.5, 1.0).Go(-0.2, 1.5);
   cast->actors.push_back(Play(figure, director.Looped(), kFirst, seed));
 }

@@ -175,7 +175,7 @@ void AddCoverScript(const Stage& stage, uint64_t seed, ScriptCast* cast) {
   Rng rng(seed, 2, kThingsPurpose);
   const Figure figure(seed, 0);
   Director director(stage, figure, rng.Below(2) == 0 ? 1 : -1, 0.9, 1.5, rng.Uniform(0.4, 0.55), &rng);
-  director.Wait(0.3, 0.8).Go(0, 1.5).Face().Go(0, 1.1).Wait(2.0, 3.0).Go(-1.75, 1.2).Wait(0.5, 1.0);
+  director.Wait(0.3, 0.8).Go(0.35, 1.5).Face().Go(0.35, 1.3).Wait(2.0, 3.0).Go(-1.75, 1.2).Wait(0.5, 1.0);
   director.Go(0.3, 1.5);
   const Vector3d offset(0.34, 0, 0.12), grip(-0.20, 0.30, -0.05);
   AddBearer(Actor(figure, director.Looped(), kFirst, seed), MakeBoard(seed), kThing, offset, grip, cast);
