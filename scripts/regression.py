@@ -23,6 +23,10 @@ from trajectory import InputError
 BOUNDS = os.path.join(runs.ROOT, "tests", "e2e", "regression_bounds.yaml")
 ALWAYS, QUICK = "synthetic_walking_xyz", "synthetic_walking_xyz_150"
 OTHER_MOTIONS = [f"synthetic_walking_{motion}" for motion in ("static", "rpy", "halfsphere")]
+SITUATIONS = [f"synthetic_{name}" for name in (
+    "still_then_all_xyz_420", "cover_xyz", "close_xyz", "crossing_xyz", "waiting_xyz",
+    "newly_seen_halfsphere_420", "put_down_xyz", "taken_away_xyz", "monitor_xyz", "walking_static",
+    "static_xyz")]
 
 # What can be bounded: meaning, unit, units in the value of 1.
 FIGURES = {
@@ -169,7 +173,8 @@ def parse_arguments():
                         help="a folder, a name such as fr3_walking_xyz, or synthetic_SCRIPT_MOTION[_seedN]"
                              "[_FRAMES] (default: all real ones that are there)")
     parser.add_argument("--all", action="store_true", help="also the synthetic walking with other motions")
-    parser.add_argument("--only", action="store_true", help="the sequences named and nothing else")
+    parser.add_argument("--situations", action="store_true",
+                        help="the special situations instead: someone fills the picture, begins to walk, ...")
     parser.add_argument("--quick", action="store_true",
                         help="under two minutes: 150 frames of walking_xyz, one composite")
     parser.add_argument("--bounds", default=BOUNDS, metavar="FILE",
@@ -179,17 +184,15 @@ def parse_arguments():
                         help="where sequences and runs go (default: results/regression)")
     runs.add_options(parser)
     args = parser.parse_args()
-    if args.all + args.quick + args.only > 1:
-        parser.error("--all, --quick and --only exclude each other")
-    if args.only and not args.sequences:
-        parser.error("--only wants the names of sequences")
+    if args.all + args.quick + args.situations > 1:
+        parser.error("--all, --quick and --situations exclude each other")
     return args
 
 
 def choose(args):
     """Names of the sequences to run, each once."""
-    if args.only:
-        return list(dict.fromkeys(args.sequences))
+    if args.situations:
+        return list(dict.fromkeys([*SITUATIONS, *args.sequences]))
     real = runs.COMPOSITES[:1] if args.quick else runs.REAL_SEQUENCES
     others = args.sequences or [name for name in real if runs.find_real(name)]
     motions = OTHER_MOTIONS if args.all else []

@@ -10,7 +10,7 @@ from unittest import mock
 from regression_support import NAME, StubbedTest
 from support import run_script
 
-from regression import BOUNDS, FIGURES, bounds_of, broken_bounds, read_bounds
+from regression import BOUNDS, FIGURES, SITUATIONS, bounds_of, broken_bounds, read_bounds
 from regression_runs import REAL_SEQUENCES, SYNTHETIC, find_real
 
 
@@ -71,11 +71,12 @@ class RegressionTest(StubbedTest):
             self.assertEqual(list(self.table_cells(output, "ATE")), [first, NAME])
             self.assertIn(f"no bounds, only reported: {first}, {NAME}\n", output)
 
-    def test_only_what_is_named_is_run_if_asked_for(self):
-        output = self.run_ok("--only", NAME, *self.bounds("")).stdout
-        self.assertEqual(list(self.table_cells(output, "ATE")), [NAME])
-        for options in (["--only"], ["--only", "--quick", NAME]):
-            self.assertEqual(self.call(*options).returncode, 2)
+    def test_special_situations_come_alone_and_have_bounds(self):
+        output = self.run_ok("--situations", *self.bounds("")).stdout
+        self.assertEqual(list(self.table_cells(output, "ATE")), SITUATIONS)
+        for name in SITUATIONS:
+            self.assertIsNotNone(bounds_of(name, read_bounds(BOUNDS)), name)
+        self.assertEqual(self.call("--situations", "--quick").returncode, 2)
 
     def test_within_the_bounds_it_succeeds(self):
         bounds = ("{max_ate_m: 0.1, max_ate_ratio_empty: 0.11, max_ate_ratio_hidden: 0.11, "

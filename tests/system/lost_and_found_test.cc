@@ -100,6 +100,21 @@ TEST_P(LostAndFound, YoungMapIsLeftForANewOneAfterTwoSeconds) {
   EXPECT_EQ(dir.NumFiles(), 4);
 }
 
+TEST_P(LostAndFound, DepthMayBeMissingForASecond) {
+  System system(SettingsFor(Walk().camera(), kNumFeatures), Options(vocabulary_));
+  constexpr int kFirst = 20, kLast = 35;  // without depth
+  for (int i = 0; i < 60; ++i) {
+    RgbdImage image = Walk().Image(i);
+    if (i >= kFirst && i < kLast) image.depth_m = cv::Mat::zeros(image.depth_m.size(), CV_32FC1);
+    EXPECT_EQ(system.TrackRgbd(image).state, TrackingState::kOk) << i;
+  }
+  system.Shutdown();
+  EXPECT_EQ(system.counts().maps, 1);
+  const TempDir dir;
+  ASSERT_TRUE(system.SaveTrajectory(dir.Path("camera.txt")).ok());
+  EXPECT_LT(AteM(dir.Path("camera.txt"), Walk()), 0.05);
+}
+
 TEST_P(LostAndFound, WhoLocalizesOnlyNeverStartsANewMap) {
   System system(SettingsFor(Walk().camera(), kNumFeatures), Options(vocabulary_));
   Camera camera(&system);
