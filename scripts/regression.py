@@ -28,6 +28,8 @@ SITUATIONS = [f"synthetic_{name}" for name in (
     "newly_seen_halfsphere_420", "put_down_xyz", "taken_away_xyz", "monitor_xyz", "walking_static",
     "static_xyz")]
 
+EMPTY_RATIOS = ("ate_ratio_empty", "ate_ratio_hidden")
+
 # What can be bounded: meaning, unit, units in the value of 1.
 FIGURES = {
     "ate_m": ("ATE RMSE with the detector", " m", 1),
@@ -75,12 +77,12 @@ def bounds_of(name, bounds):
 def figures_of(result):
     """The values of FIGURES in the result of a sequence; None where not known."""
     without, with_it = result["without"], result["with"]
-    ate, masks, empty = with_it["ate"]["rmse"], with_it["masks"] or {}, result["empty"]
+    ate, masks = with_it["ate"]["rmse"], with_it["masks"] or {}
 
     def ratio(baseline):
         return ate / baseline if baseline else None
-    return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]), "ate_ratio_empty": ratio(empty.get("ate_m")),
-            "ate_ratio_hidden": ratio(empty.get("hidden_ate_m")),
+    return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]),
+            **{name: ratio(result["empty_ate_m"].get(name)) for name in EMPTY_RATIOS},
             "eta_percent": result["improvement_percent"]["ate"]["rmse"],
             "coverage": with_it["coverage"]["ratio"],
             **{name: masks.get(name) for name in ("recall", "precision", "iou", "wrongly_masked")},
@@ -108,19 +110,18 @@ def broken_bounds(name, figures, bounds):
     return lines
 
 
-def measure_empty(sequence, output, programs):
-    """ATE RMSE, m, of a synthetic camera path with nobody there, without the detector: of the whole pictures,
-    and without the pixels where somebody would be, which no method can see. Empty for real sequences."""
-    if sequence.recipe is None:
+def measure_empty(sequence, bounds, output, programs):
+    """For each of EMPTY_RATIOS that is bounded: ATE RMSE, m, of a synthetic camera path with nobody there, of
+    the whole pictures or without the pixels where somebody would be. Empty for real sequences."""
+    wanted = [name for name in EMPTY_RATIOS if any(key.endswith(name) for key in bounds or {})]
+    if sequence.recipe is None or not wanted:
         return {}
     empty = runs.locate(f"synthetic_static{sequence.name[sequence.recipe.end('script'):]}", output)
     runs.make(empty, programs)
-    folder = os.path.join(output, empty.name)
     hidden = ["--mask-dir", os.path.join(sequence.folder, "mask")]
-    whole_run = runs.run_without_detector(empty, os.path.join(folder, "without"), programs)
-    hidden_folder = os.path.join(folder, f"hidden_{sequence.name}")
-    hidden_run = runs.run_without_detector(empty, hidden_folder, programs, hidden)
-    return {"ate_m": whole_run["ate"]["rmse"], "hidden_ate_m": hidden_run["ate"]["rmse"]}
+    options = {"ate_ratio_empty": [], "ate_ratio_hidden": hidden}
+    return {name: runs.run_without_detector(empty, os.path.join(output, sequence.name, name), programs,
+                                            options[name])["ate"]["rmse"] for name in wanted}
 
 
 def measure(sequence, bounds, output, programs):
@@ -131,10 +132,9 @@ def measure(sequence, bounds, output, programs):
     without = runs.run_without_detector(sequence, os.path.join(folder, "without"), programs)
     runs.say(f"{sequence.name}: tracking with the detector")
     with_it, _ = runs.run_with_detector(sequence, os.path.join(folder, "with"), programs)
-    wants_empty = any("ate_ratio_" in key for key in bounds or {})
     return {"without": without, "with": with_it,
             "improvement_percent": compare_runs.compare(without, with_it),
-            "empty": measure_empty(sequence, output, programs) if wants_empty else {}}
+            "empty_ate_m": measure_empty(sequence, bounds, output, programs)}
 
 
 def improvement_tables(results):

@@ -231,5 +231,23 @@ TEST(SyntheticSequenceOptions, RefusesWhatItCannotDo) {
   for (const auto& options : {distorted, negative, coarse}) EXPECT_FALSE(options.Check().ok());
 }
 
+/// Nobody could track a camera that sees nothing of the room.
+TEST(SyntheticSequence, WhoeverFillsThePictureLeavesAPartOfTheRoomToSee) {
+  for (const ScriptKind script : {ScriptKind::kClose, ScriptKind::kCover}) {
+    const SyntheticSequence sequence({.motion = Motion::kXyz,
+                                      .script = script,
+                                      .num_frames = 300,
+                                      .camera = SyntheticCamera(160),
+                                      .texels_per_metre = 64});
+    double most = 0;
+    for (int i = 0; i < sequence.size(); i += 3) {
+      const cv::Mat mask = sequence.Frame(i).mask;
+      most = std::max(most, cv::countNonZero(mask) / static_cast<double>(mask.total()));
+    }
+    EXPECT_GT(most, 0.75) << ScriptName(script);
+    EXPECT_LT(most, 0.95) << ScriptName(script);
+  }
+}
+
 }  // namespace
 }  // namespace orbslam

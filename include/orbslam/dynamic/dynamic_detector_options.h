@@ -104,8 +104,8 @@ struct SlidingOptions {
 };
 
 struct SegmentationOptions {
-  int min_cells = 20;  // the published 200 points are of a voxel grid; a hand at 2 m is 25 cells
-  bool use_planes = true;    // large flat parts are judged by themselves
+  int min_cells = 20;         // the published 200 points are of a voxel grid; a hand at 2 m is 25 cells
+  bool use_planes = true;     // large flat parts are judged by themselves
   float min_plane_m2 = 0.5f;  // what is as large and flat is a floor, a wall, a table, not a part of a person
 };
 
@@ -163,7 +163,7 @@ struct HistogramOptions {
 
 /// When not to mask.
 struct FailOpenOptions {
-  double max_gap_s = 0.25;  // between two frames: over more, corners and ICP lose their way
+  double max_gap_s = 0.25;         // between two frames: over more, corners and ICP lose their way
   int max_untrusted_frames = 15;   // half a second on what was moving before; then nothing is masked
   double max_masked_share = 0.95;  // of the image: nothing is left to hold on to. Someone who passes closely
   int max_covered_frames = 15;     // does that for half a second; longer, it is our error
