@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kCandidates = 32, kCountedCells = 400;  // of a cluster, spread evenly
 constexpr float kGateSigma = 3.f, kFlatM = 0.01f;     // off a plane: the sensor's noise, and the floor's waves
-constexpr float kMinNormalCos = 0.8f;                 // between normals of one plane; normals are noisy
 constexpr float kMinRayCos = 0.05f;                   // more oblique, nothing is measured
 
 struct Plane {
@@ -58,14 +57,10 @@ class ClusterPlanes {
     return {frame_.normal_x(cell), frame_.normal_y(cell), frame_.normal_z(cell)};
   }
 
-  /// Cells without a normal, at its edges, are judged by their distance alone.
   bool IsOn(int cell, const Plane& plane) const {
     const float z = frame_.depth_m(cell), slope = plane.normal.dot(Ray(cell));
     if (std::abs(slope) < kMinRayCos) return false;
-    if (std::abs(slope * z - plane.distance_m) > kGateSigma * DepthSigmaM(z) * std::abs(slope) + kFlatM)
-      return false;
-    const Eigen::Vector3f normal = Normal(cell);
-    return normal.isZero() || normal.dot(plane.normal) > kMinNormalCos;
+    return std::abs(slope * z - plane.distance_m) < kGateSigma * DepthSigmaM(z) * std::abs(slope) + kFlatM;
   }
 
   float AreaM2(int cell, const Plane& plane) const {
