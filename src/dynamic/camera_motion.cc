@@ -66,6 +66,22 @@ bool FitsDepth(const GridCamera& cell_camera, const WorkingFrame& current, std::
   return at_pose.FitShare() > kAsWell * best_fit_share;
 }
 
+std::vector<CornerMatch> RestingMatches(const GridCamera& camera, std::span<const TrackedCorner> corners) {
+  std::vector<CornerMatch> matches;
+  for (const TrackedCorner& corner : corners)
+    if (corner.depth_m > 0 && !corner.was_moving)
+      matches.push_back(
+          {Point(camera, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
+  return matches;
+}
+
+void MeasureExcess(const GridCamera& camera, const Rigid3d& pose, std::vector<TrackedCorner>* corners) {
+  for (TrackedCorner& corner : *corners) {
+    corner.excess = Excess(camera, pose, corner);
+    corner.residual_px = static_cast<float>(cv::norm(corner.excess));
+  }
+}
+
 }  // namespace
 
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
@@ -102,6 +118,20 @@ std::vector<TrackedCorner> CameraMotionEstimator::Follow(const ReferenceView& pr
   return tracked;
 }
 
+std::vector<TrackedCorner> CameraMotionEstimator::FollowFrom(const ReferenceView& reference,
+                                                             const WorkingFrame& current) const {
+  const Rigid3d aligned = Inverse(reference.reference_from_current);
+  std::vector<TrackedCorner> corners = Follow(reference, current, aligned);
+  PoseFromCornersOptions refine = options_.pose;
+  refine.num_draws = 0;  // the alignment is as good as any draw
+  Rng rng(0);
+  const PoseFromCorners pose =
+      EstimatePose(grids_.gray, RestingMatches(grids_.gray, corners), {aligned}, refine, &rng);
+  if (!pose.ok) return {};
+  MeasureExcess(grids_.gray, pose.current_from_previous, &corners);
+  return corners;
+}
+
 CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const WorkingFrame& current,
                                              uint64_t seed) {
   const ReferenceView& previous = *history.Back(1);
@@ -110,14 +140,9 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   CameraMotion motion;
   motion.corners = Follow(previous, current, predicted);
 
-  std::vector<CornerMatch> matches;
-  for (const TrackedCorner& corner : motion.corners)
-    if (corner.depth_m > 0 && !corner.was_moving)
-      matches.push_back(
-          {Point(grids_.gray, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
   Rng rng(seed, 0, 0xE60);
-  const PoseFromCorners from_corners =
-      EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
+  const PoseFromCorners from_corners = EstimatePose(grids_.gray, RestingMatches(grids_.gray, motion.corners),
+                                                    {predicted, Rigid3d()}, options_.pose, &rng);
   motion.num_inliers = from_corners.num_inliers;
   motion.color_current_from_previous = from_corners.ok ? from_corners.current_from_previous : predicted;
 
@@ -136,10 +161,7 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
                 options_.icp);
   if (motion.is_depth_misled) motion.depth_current_from_previous = motion.color_current_from_previous;
 
-  for (TrackedCorner& corner : motion.corners) {
-    corner.excess = Excess(grids_.gray, motion.color_current_from_previous, corner);
-    corner.residual_px = static_cast<float>(cv::norm(corner.excess));
-  }
+  MeasureExcess(grids_.gray, motion.color_current_from_previous, &motion.corners);
   if (!from_corners.ok) motion.failure = "too few corners could be followed";
   if (motion.fit_share < options_.min_fit_share) motion.failure = "the depth does not fit the last frame's";
   velocity_ = from_corners.ok ? from_corners.current_from_previous : Inverse(icp.base_from_source);

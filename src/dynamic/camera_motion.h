@@ -11,11 +11,11 @@
 
 namespace orbslam {
 
-/// A corner followed from the last frame into this one.
+/// A corner followed from an earlier frame, mostly the last one, into this one.
 struct TrackedCorner {
   cv::Point2f previous, current;  // grey grid, px
-  float depth_m = 0;              // in the last frame; 0: none
-  bool was_moving = false;        // in the last mask
+  float depth_m = 0;              // in the earlier frame; 0: none
+  bool was_moving = false;        // in the earlier frame's mask
   cv::Point2f excess;             // grey px: from there (below) to where it is
   float residual_px = 0;  // length of excess: distance to where a static point would be now; without depth,
                           // to the nearest of all places where one at any depth from 0.3 m on would be
@@ -44,6 +44,9 @@ class CameraMotionEstimator {
 
   /// seed: of the random draws, for example the frame's id.
   CameraMotion Estimate(const SceneHistory& history, const WorkingFrame& current, uint64_t seed);
+  /// Corners of an older frame that is aligned with this one, where they are now. The camera's motion between
+  /// the two colour images is refined from them; empty if it cannot be.
+  std::vector<TrackedCorner> FollowFrom(const ReferenceView& reference, const WorkingFrame& current) const;
   void Reset() { velocity_ = {}, previous_interval_s_ = 0; }
 
  private:

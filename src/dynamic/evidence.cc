@@ -109,29 +109,33 @@ void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const 
   facts->num_attached += attached;
 }
 
+void AddCorners(const Segmentation& segmentation, const Flow& flow, std::vector<ClusterFacts>* all) {
+  for (const TrackedCorner& corner : flow.corners) {
+    const cv::Point cell = CellOf(corner);
+    if (!cv::Rect({0, 0}, segmentation.labels.size()).contains(cell)) continue;
+    const int label = segmentation.labels(cell);
+    if (label < 0) continue;
+    ++(*all)[label].num_corners;
+    (*all)[label].num_moving_corners += flow.Moves(corner);
+  }
+}
+
 }  // namespace
 
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
-                                      std::span<const TrackedCorner> corners, const CornerGate& gate) {
+                                      std::span<const Flow> flows) {
   std::vector<ClusterFacts> all(segmentation.clusters.size());
   for (size_t c = 0; c < all.size(); ++c) {
     const std::vector<int>& cells = segmentation.clusters[c].cells;
-    all[c].sharpness = gate.sharpness;
+    all[c].sharpness = flows.front().gate.sharpness;
     all[c].num_cells = static_cast<int>(cells.size());
     for (const int cell : cells) {
       AddCell(segmentation, frame, votes, cell, &all[c]);
       all[c].carried += carried(cell) / static_cast<float>(cells.size());
     }
   }
-  for (const TrackedCorner& corner : corners) {
-    const cv::Point cell = CellOf(corner);
-    if (!cv::Rect({0, 0}, frame.depth_m.size()).contains(cell)) continue;
-    const int label = segmentation.labels(cell);
-    if (label < 0) continue;
-    ++all[label].num_corners;
-    all[label].num_moving_corners += corner.residual_px > gate.moving_px;
-  }
+  for (const Flow& flow : flows) AddCorners(segmentation, flow, &all);
   return all;
 }
 

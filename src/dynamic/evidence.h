@@ -5,11 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "camera_motion.h"
+#include "corner_gate.h"
 #include "free_space.h"
 #include "orbslam/dynamic/dynamic_detector_options.h"
 #include "segmenter.h"
-#include "sliding_surface.h"
 
 namespace orbslam {
 
@@ -26,9 +25,10 @@ struct ClusterFacts {
   int num_corners = 0, num_moving_corners = 0;  // followed; not where a static point would be
 };
 
+/// flows: from the last frame, and others.
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
-                                      std::span<const TrackedCorner> corners, const CornerGate& gate);
+                                      std::span<const Flow> flows);
 
 /// One source of evidence: how much it changes the log-odds that a cluster moves.
 class Evidence {

@@ -83,26 +83,35 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
   untrusted_frames_ = judgement.is_trusted ? 0 : untrusted_frames_ + 1;
   history_.Advance(Inverse(judgement.motion.depth_current_from_previous));
   history_.AlignKeyframes(frame, judgement.motion.is_depth_misled);
+  judgement.flows = JudgeFlow(frame, judgement);
   judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.corners);
   judgement.carried = CarryOver(log_odds_, judgement.shift);
   return judgement;
 }
 
+std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, const Judgement& judgement) const {
+  std::vector<Flow> flows{MakeFlow(judgement.motion.corners, options_.corner_gate)};
+  const ReferenceView* older = history_.KeyframeOfAge(options_.slow_flow.age_frames);
+  if (!options_.slow_flow.use_slow_flow || !judgement.is_trusted || older == nullptr) return flows;
+  Flow slow = MakeFlow(motion_estimator_.FollowFrom(*older, frame), options_.slow_flow.gate);
+  if (slow.gate.IsSharp()) flows.push_back(std::move(slow));
+  return flows;
+}
+
 void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                         Judgement* judgement) const {
   judgement->votes = VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
-  const std::vector<TrackedCorner>& corners = judgement->motion.corners;
-  judgement->gate = MakeCornerGate(corners, options_.sliding);
-  if (!options_.sliding.use_sliding || !judgement->is_trusted || !judgement->gate.IsSharp()) return;
-  WithdrawStatic(SlidingCells(frame.depth_m, corners, judgement->gate.moving_px, options_.sliding),
-                 &judgement->votes);
+  if (!options_.sliding.use_sliding || !judgement->is_trusted) return;
+  for (const Flow& flow : judgement->flows)
+    if (flow.gate.IsSharp())
+      WithdrawStatic(SlidingCells(frame.depth_m, flow, options_.sliding), &judgement->votes);
 }
 
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,
                                  Judgement* judgement) const {
   const Segmentation& segmentation = judgement->segmentation;
-  const std::vector<ClusterFacts> facts = GatherFacts(
-      segmentation, frame, judgement->votes, judgement->carried, judgement->motion.corners, judgement->gate);
+  const std::vector<ClusterFacts> facts =
+      GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->flows);
   std::vector<float> log_odds;
   for (const ClusterFacts& cluster : facts)
     log_odds.push_back(FuseEvidence(evidence_, cluster, options_.fusion));

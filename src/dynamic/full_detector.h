@@ -30,7 +30,7 @@ class FullDetector {
   struct Judgement {
     CameraMotion motion;
     bool is_trusted = false;  // the motion, and with it the references
-    CornerGate gate;          // from which residual on a corner moves
+    std::vector<Flow> flows;  // from the last frame; from an older one, if sharp
     cv::Mat2f shift;          // where moving things were in the last frame
     cv::Mat1f carried;        // log-odds of the last frame, there
     FreeSpaceVotes votes;
@@ -44,6 +44,7 @@ class FullDetector {
   std::string ReasonToBegin(double timestamp_s) const;
   void Forget();
   void Begin(std::shared_ptr<const WorkingFrame> frame);
+  std::vector<Flow> JudgeFlow(const WorkingFrame& frame, const Judgement& judgement) const;
   Judgement EstimateMotion(const WorkingFrame& frame, uint64_t seed);
   void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
             Judgement* judgement) const;

@@ -11,8 +11,8 @@ namespace orbslam {
 namespace {
 
 constexpr int kCandidates = 32, kCountedCells = 400;  // of a cluster, spread evenly
-constexpr float kGateSigma = 3.f, kFlatM = 0.01f;     // off a plane: the sensor's noise, and the floor's waves
-constexpr float kMinRayCos = 0.05f;                   // more oblique, nothing is measured
+constexpr float kGateSigma = 3.f, kFlatM = 0.01f;  // off a plane: the sensor's noise, and the floor's waves
+constexpr float kMinRayCos = 0.05f;                // more oblique, nothing is measured
 
 struct Plane {
   Eigen::Vector3f normal;
@@ -49,8 +49,8 @@ class ClusterPlanes {
   /// With z = 1.
   Eigen::Vector3f Ray(int cell) const {
     const int u = cell % camera_.width, v = cell / camera_.width;
-    return {(static_cast<float>(u) - camera_.cx) / camera_.fx, (static_cast<float>(v) - camera_.cy) / camera_.fy,
-            1.f};
+    return {(static_cast<float>(u) - camera_.cx) / camera_.fx,
+            (static_cast<float>(v) - camera_.cy) / camera_.fy, 1.f};
   }
 
   Eigen::Vector3f Normal(int cell) const {

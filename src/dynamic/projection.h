@@ -16,7 +16,7 @@ struct ProjectedRow {
 };
 
 /// Projects row v of a depth image (0: none) into the view at other_from_this, nearest cell.
-void ProjectRow(const GridCamera& camera, const Rigid3d& other_from_this, int v, const float* depth_m,
+void ProjectRow(GridCamera camera, const Rigid3d& other_from_this, int v, const float* depth_m,
                 ProjectedRow* row);
 
 }  // namespace orbslam

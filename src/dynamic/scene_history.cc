@@ -38,6 +38,16 @@ void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_mis
                 [&](const ReferenceView& view) { return view.frames_unaligned > options_.max_unaligned; });
 }
 
+const ReferenceView* SceneHistory::KeyframeOfAge(int age_frames) const {
+  const ReferenceView* nearest = nullptr;
+  const auto distance = [&](const ReferenceView& view) { return std::abs(view.age_frames - age_frames); };
+  for (const ReferenceView& view : keyframes_)
+    if (view.is_aligned && 2 * view.age_frames >= age_frames &&
+        (nearest == nullptr || distance(view) < distance(*nearest)))
+      nearest = &view;
+  return nearest;
+}
+
 std::vector<const ReferenceView*> SceneHistory::FreeSpaceReferences() const {
   std::vector<const ReferenceView*> references;
   for (const int num_back : {2, 4})

@@ -24,6 +24,8 @@ class SceneHistory {
   /// Aligns each keyframe with the present frame; those that do not fit, or no longer overlap, are forgotten.
   /// is_depth_misled: something moves that depth takes for the room; its pull is made weak for a while.
   void AlignKeyframes(const WorkingFrame& current, bool is_depth_misled);
+  /// The aligned keyframe whose age is nearest, and at least half of that; null: none.
+  const ReferenceView* KeyframeOfAge(int age_frames) const;
   /// t-2, t-4 and the keyframes.
   std::vector<const ReferenceView*> FreeSpaceReferences() const;
   /// moving: its cells that were masked. cloud: for the motion histogram, may be null.

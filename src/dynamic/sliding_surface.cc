@@ -15,18 +15,17 @@ bool IsNeighbor(const TrackedCorner& a, const TrackedCorner& b, const SlidingOpt
 }
 
 /// Whether most of the corners around it move, and alike.
-bool MovesWithNeighbors(const TrackedCorner& corner, std::span<const TrackedCorner> corners, float moving_px,
-                        const SlidingOptions& options) {
-  if (corner.residual_px <= moving_px) return false;
+bool MovesWithNeighbors(const TrackedCorner& corner, const Flow& flow, const SlidingOptions& options) {
+  if (!flow.Moves(corner)) return false;
   cv::Point2f sum;
   float sum_of_lengths = 0;
   int count = 0, num_moving = 0;
-  for (const TrackedCorner& other : corners) {
+  for (const TrackedCorner& other : flow.corners) {
     if (!IsNeighbor(corner, other, options)) continue;
     sum += other.excess;
     sum_of_lengths += other.residual_px;
     ++count;
-    num_moving += other.residual_px > moving_px;
+    num_moving += flow.Moves(other);
   }
   return count >= options.min_neighbors && 2 * num_moving > count &&
          cv::norm(sum) > options.min_likeness * sum_of_lengths;
@@ -34,29 +33,15 @@ bool MovesWithNeighbors(const TrackedCorner& corner, std::span<const TrackedCorn
 
 }  // namespace
 
-CornerGate MakeCornerGate(std::span<const TrackedCorner> corners, const SlidingOptions& options) {
-  std::vector<float> residuals;
-  for (const TrackedCorner& corner : corners)
-    if (corner.depth_m > 0 && !corner.was_moving) residuals.push_back(corner.residual_px);
-  float moving_px = options.max_gate_px;
-  if (static_cast<int>(residuals.size()) >= options.min_resting) {
-    const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-    std::nth_element(residuals.begin(), middle, residuals.end());
-    moving_px = std::clamp(options.gate_medians * *middle, options.min_gate_px, options.max_gate_px);
-  }
-  return {moving_px, std::min(1.f, options.max_sharp_px / moving_px)};
-}
-
-cv::Mat1b SlidingCells(const cv::Mat1f& depth_m, std::span<const TrackedCorner> corners, float moving_px,
-                       const SlidingOptions& options) {
+cv::Mat1b SlidingCells(const cv::Mat1f& depth_m, const Flow& flow, const SlidingOptions& options) {
   cv::Mat1b sliding(depth_m.size(), uint8_t{0}), reached(depth_m.size(), uint8_t{0});
   const cv::Rect inside({0, 0}, depth_m.size());
   std::vector<cv::Point> front, next;
-  for (const TrackedCorner& corner : corners) {
+  for (const TrackedCorner& corner : flow.corners) {
     const cv::Point cell = CellOf(corner);
     if (!(corner.depth_m > 0) || !inside.contains(cell) || reached(cell) != 0) continue;
     reached(cell) = 1;
-    sliding(cell) = MovesWithNeighbors(corner, corners, moving_px, options) ? 255 : 0;
+    sliding(cell) = MovesWithNeighbors(corner, flow, options) ? 255 : 0;
     front.push_back(cell);
   }
   // From all corners at once: each cell follows the nearest one of its own surface.

@@ -150,6 +150,7 @@ TEST(DynamicDetector, WorksWithEachSourceOfEvidenceOff) {
                                      [](auto& o) -> bool& { return o.fusion.use_thickness; },
                                      [](auto& o) -> bool& { return o.fusion.use_histogram; },
                                      [](auto& o) -> bool& { return o.sliding.use_sliding; },
+                                     [](auto& o) -> bool& { return o.slow_flow.use_slow_flow; },
                                      [](auto& o) -> bool& { return o.growth.use_growth; },
                                      [](auto& o) -> bool& { return o.growth.use_background; },
                                      [](auto& o) -> bool& { return o.growth.use_corners; }};

@@ -83,7 +83,8 @@ TEST(PlaneSplit, WhatIsSmallOrRoundOrFoldedStaysWhole) {
     const float a = x * x + 1, root = 1.25f * 1.25f - a * (1.25f * 1.25f - 0.25f * 0.25f);
     return root < 0 ? 0 : (1.25f - std::sqrt(root)) / a;
   }));
-  EXPECT_TRUE(is_whole([](float x, float y) { return std::abs(x) < 0.25f && std::abs(y) < 0.3f ? 1.f : 0.f; }));
+  EXPECT_TRUE(
+      is_whole([](float x, float y) { return std::abs(x) < 0.25f && std::abs(y) < 0.3f ? 1.f : 0.f; }));
   EXPECT_TRUE(is_whole([](float x, float y) {
     const bool is_cloth = std::abs(x) < 0.35f && std::abs(y) < 0.35f;
     return is_cloth ? 1.2f + 0.012f * std::sin(1.2f * x / 0.08f * 6.28f) : 0.f;

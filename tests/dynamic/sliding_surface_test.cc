@@ -41,8 +41,7 @@ std::vector<TrackedCorner> Corners(cv::Point2f board_excess, float noise_px = 0.
 }
 
 cv::Mat1b Sliding(const std::vector<TrackedCorner>& corners) {
-  const SlidingOptions options;
-  return SlidingCells(BoardBeforeWall(), corners, MakeCornerGate(corners, options).moving_px, options);
+  return SlidingCells(BoardBeforeWall(), MakeFlow(corners, {}), {});
 }
 
 TEST(SlidingSurface, NothingSlidesWhereCornersRest) {
@@ -76,26 +75,34 @@ TEST(SlidingSurface, ACornerAloneIsNotBelieved) {
 }
 
 TEST(SlidingSurface, EndsWhereTheDepthJumps) {
-  std::vector<TrackedCorner> corners = Corners({1, 0});
-  const SlidingOptions options;
-  const float moving_px = MakeCornerGate(corners, options).moving_px;
-  std::erase_if(corners, [](const TrackedCorner& corner) { return corner.depth_m > 2; });  // none on the wall
-  cv::Mat1b sliding = SlidingCells(BoardBeforeWall(), corners, moving_px, options);
+  Flow flow = MakeFlow(Corners({1, 0}), {});
+  std::erase_if(flow.corners,
+                [](const TrackedCorner& corner) { return corner.depth_m > 2; });  // none on the wall
+  cv::Mat1b sliding = SlidingCells(BoardBeforeWall(), flow, {});
   EXPECT_EQ(cv::countNonZero(sliding(kBoard)), kBoard.area());
   EXPECT_EQ(cv::countNonZero(sliding), kBoard.area());
 }
 
-TEST(SlidingSurface, TheGateGrowsWithTheNoiseWithinItsBounds) {
-  const SlidingOptions options;
+TEST(CornerGate, GrowsWithTheNoiseWithinItsBounds) {
+  const CornerGateOptions options;
   float last = 0;
   for (const float noise_px : {0.f, 0.1f, 0.2f, 0.5f, 5.f}) {
     const float gate = MakeCornerGate(Corners({}, noise_px), options).moving_px;
     EXPECT_GE(gate, last);
     last = gate;
   }
-  EXPECT_EQ(MakeCornerGate(Corners({}, 0), options).moving_px, options.min_gate_px);
-  EXPECT_EQ(last, options.max_gate_px);
-  EXPECT_EQ(MakeCornerGate({}, options).moving_px, options.max_gate_px);
+  EXPECT_EQ(MakeCornerGate(Corners({}, 0), options).moving_px, options.min_px);
+  EXPECT_EQ(last, options.max_px);
+  EXPECT_EQ(MakeCornerGate({}, options).moving_px, options.max_px);
+}
+
+TEST(CornerGate, OfAQuartileIsThatOfThoseThatRestThoughHalfOfThePictureSways) {
+  const CornerGateOptions options{.quantile = 0.25, .min_px = 0.01f};
+  std::vector<TrackedCorner> corners = Corners({});
+  const float resting_px = MakeCornerGate(corners, options).moving_px;
+  for (size_t i = 0; i < corners.size(); i += 2) corners[i].residual_px = 2;
+  EXPECT_LT(MakeCornerGate(corners, options).moving_px, 2 * resting_px);
+  EXPECT_GT(MakeCornerGate(corners, options).moving_px, resting_px);
 }
 
 TEST(FillHoles, KeepsWhatIsMeasuredAndFillsTheRestFromAround) {

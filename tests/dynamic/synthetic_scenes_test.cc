@@ -56,6 +56,17 @@ TEST(SlowWalker, IsSeenByHisTextureWhereDepthConfirmsHim) {
   EXPECT_GT(masked[0].recall, masked[1].recall + 0.2);
 }
 
+/// Two who sit and sway: less from frame to frame than flow can tell, and depth confirms them.
+TEST(WhoSits, IsSeenByHisSwayOverHalfASecond) {
+  const SyntheticSequence sequence({.seed = 1, .motion = Motion::kStatic, .script = ScriptKind::kSitting});
+  DynamicDetectorOptions by_the_last_frame_alone;
+  by_the_last_frame_alone.slow_flow.use_slow_flow = false;
+  const auto masked = Watch(sequence, 60, 90, 120, {DynamicDetectorOptions(), by_the_last_frame_alone});
+  EXPECT_GT(masked[0].recall, 0.5);
+  EXPECT_GT(masked[0].recall, masked[1].recall + 0.2);
+  EXPECT_LT(masked[0].wrongly, 0.04);  // a rim of some pixels about them is a fortieth
+}
+
 /// The camera looks down, and the floor between two people who walk comes into view joined to their feet.
 TEST(WalkersOnAFloor, TheFloorIsNotMaskedWithThem) {
   const SyntheticSequence sequence({.seed = 1, .motion = Motion::kRpy, .script = ScriptKind::kWalking});

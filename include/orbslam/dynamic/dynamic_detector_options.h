@@ -86,16 +86,30 @@ struct FreeSpaceOptions {
   int min_suspicious_neighbors = 4;  // of the 3 x 3 cells: noise and edges are thinner
 };
 
+/// From which residual on a corner moves: as many times what those have that rested in the last mask.
+struct CornerGateOptions {
+  double quantile = 0.5;      // of the resting corners' residuals
+  float multiple = 8.f;       // of that quantile: nine sigma, for blur has long tails
+  float min_px = 0.4f;        // grey px: what the camera's own motion is fitted with
+  float max_px = 3.f;         // grey px, 3 sigma in the worst pictures
+  float max_sharp_px = 1.2f;  // gate of a sharp picture: in others blur and the rolling shutter let static
+                              // surfaces slide too
+  int min_resting = 20;       // corners, for the quantile; with fewer the gate is the largest
+};
+
+/// Corners followed from a keyframe: who sways or breathes moves too little from one frame to the next.
+struct SlowFlowOptions {
+  bool use_slow_flow = true;
+  int age_frames =
+      15;  // of the keyframe, half a second: somebody seated sways by 1 cm in it, 2 grey px at 1.5 m
+  // A quartile, since half of the picture may sway, and 5 sigma by it: flow over many frames errs by drift
+  // that all share and the pose takes up.
+  CornerGateOptions gate{.quantile = 0.25, .multiple = 7.f};
+};
+
 /// Surfaces that slide within themselves: what depth alone would confirm as static, but corners see moving.
 struct SlidingOptions {
   bool use_sliding = true;
-  float gate_medians = 8.f;   // median residuals from which on a corner moves: nine sigma, for blur has long
-                              // tails
-  float min_gate_px = 0.4f;   // grey px: what the camera's own motion is fitted with
-  float max_gate_px = 3.f;    // grey px, 3 sigma in the worst pictures
-  float max_sharp_px = 1.2f;  // gate of a sharp picture: in others blur and the rolling shutter let static
-                              // surfaces slide too
-  int min_resting = 20;       // corners, for the median; with fewer the gate is the largest
   float radius_px = 25.f;     // grey px, of the neighbours asked: one cell of the corners' grid around
   float depth_share = 0.15f;  // of the depth, by which neighbours on one thing may differ: half a person
   int min_neighbors = 5;      // that can be asked, itself included
@@ -178,6 +192,8 @@ struct DynamicDetectorOptions {
   CameraMotionOptions camera_motion;
   ReferenceOptions references;
   FreeSpaceOptions free_space;
+  CornerGateOptions corner_gate;
+  SlowFlowOptions slow_flow;
   SlidingOptions sliding;
   SegmentationOptions segmentation;
   FusionOptions fusion;
