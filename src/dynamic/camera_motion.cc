@@ -82,7 +82,25 @@ void MeasureExcess(const GridCamera& camera, const Rigid3d& pose, std::vector<Tr
   }
 }
 
+float NextInlierPx(std::span<const TrackedCorner> corners, const CameraMotionOptions& options) {
+  constexpr int kMinCorners = 20;
+  const std::optional<float> quartile_px = RestingResidualPx(corners, 0.25, kMinCorners);
+  if (!quartile_px) return options.pose.inlier_px;
+  return std::clamp(options.inlier_quartiles * *quartile_px, options.min_inlier_px, options.pose.inlier_px);
+}
+
 }  // namespace
+
+std::optional<float> RestingResidualPx(std::span<const TrackedCorner> corners, double quantile,
+                                       int min_corners) {
+  std::vector<float> residuals;
+  for (const TrackedCorner& corner : corners)
+    if (corner.depth_m > 0 && !corner.was_moving) residuals.push_back(corner.residual_px);
+  if (residuals.empty() || static_cast<int>(residuals.size()) < min_corners) return {};
+  const auto rank = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(residuals.size()));
+  std::nth_element(residuals.begin(), residuals.begin() + rank, residuals.end());
+  return residuals[rank];
+}
 
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
   if (previous_interval_s_ <= 0) return {};
@@ -132,6 +150,18 @@ std::vector<TrackedCorner> CameraMotionEstimator::FollowFrom(const ReferenceView
   return corners;
 }
 
+PoseFromCorners CameraMotionEstimator::PoseOf(std::span<const TrackedCorner> corners,
+                                              const Rigid3d& predicted, uint64_t seed) const {
+  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, corners);
+  PoseFromCornersOptions options = options_.pose;
+  options.inlier_px = inlier_px_;
+  Rng rng(seed, 0, 0xE60);
+  PoseFromCorners pose = EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options, &rng);
+  if (pose.ok || inlier_px_ == options_.pose.inlier_px) return pose;
+  // It may have begun to blur.
+  return EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
+}
+
 CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const WorkingFrame& current,
                                              uint64_t seed) {
   const ReferenceView& previous = *history.Back(1);
@@ -140,9 +170,7 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   CameraMotion motion;
   motion.corners = Follow(previous, current, predicted);
 
-  Rng rng(seed, 0, 0xE60);
-  const PoseFromCorners from_corners = EstimatePose(grids_.gray, RestingMatches(grids_.gray, motion.corners),
-                                                    {predicted, Rigid3d()}, options_.pose, &rng);
+  const PoseFromCorners from_corners = PoseOf(motion.corners, predicted, seed);
   motion.num_inliers = from_corners.num_inliers;
   motion.color_current_from_previous = from_corners.ok ? from_corners.current_from_previous : predicted;
 
@@ -162,6 +190,7 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   if (motion.is_depth_misled) motion.depth_current_from_previous = motion.color_current_from_previous;
 
   MeasureExcess(grids_.gray, motion.color_current_from_previous, &motion.corners);
+  inlier_px_ = NextInlierPx(motion.corners, options_);
   if (!from_corners.ok) motion.failure = "too few corners could be followed";
   if (motion.fit_share < options_.min_fit_share) motion.failure = "the depth does not fit the last frame's";
   velocity_ = from_corners.ok ? from_corners.current_from_previous : Inverse(icp.base_from_source);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,11 @@ inline cv::Point CellOf(const TrackedCorner& corner) {
   return {cvFloor(corner.current.x / 2), cvFloor(corner.current.y / 2)};
 }
 
+/// That quantile of the residuals of the corners that have depth and rested; empty if they are fewer than
+/// that.
+std::optional<float> RestingResidualPx(std::span<const TrackedCorner> corners, double quantile,
+                                       int min_corners);
+
 /// How the camera moved from the last frame to this one. Colour and depth images are taken at different times
 /// (up to 15 ms apart): each has a motion of its own.
 struct CameraMotion {
@@ -40,24 +47,27 @@ struct CameraMotion {
 class CameraMotionEstimator {
  public:
   CameraMotionEstimator(const WorkingGrids& grids, const CameraMotionOptions& options)
-      : grids_(grids), options_(options) {}
+      : grids_(grids), options_(options), inlier_px_(options.pose.inlier_px) {}
 
   /// seed: of the random draws, for example the frame's id.
   CameraMotion Estimate(const SceneHistory& history, const WorkingFrame& current, uint64_t seed);
   /// Corners of an older frame that is aligned with this one, where they are now. The camera's motion between
   /// the two colour images is refined from them; empty if it cannot be.
   std::vector<TrackedCorner> FollowFrom(const ReferenceView& reference, const WorkingFrame& current) const;
-  void Reset() { velocity_ = {}, previous_interval_s_ = 0; }
+  void Reset() { velocity_ = {}, previous_interval_s_ = 0, inlier_px_ = options_.pose.inlier_px; }
 
  private:
   std::vector<TrackedCorner> Follow(const ReferenceView& previous, const WorkingFrame& current,
                                     const Rigid3d& predicted) const;
   Rigid3d Predict(double interval_s) const;
+  PoseFromCorners PoseOf(std::span<const TrackedCorner> corners, const Rigid3d& predicted,
+                         uint64_t seed) const;
 
   WorkingGrids grids_;
   CameraMotionOptions options_;
   Rigid3d velocity_;  // the last colour motion, over previous_interval_s_
   double previous_interval_s_ = 0;
+  float inlier_px_;  // for the next frame
 };
 
 }  // namespace orbslam

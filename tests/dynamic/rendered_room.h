@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "orbslam/dynamic/dynamic_detector.h"
@@ -34,9 +36,8 @@ class RenderedRoom {
     boxes.insert(boxes.end(), movers.begin(), movers.end());
     for (int v = 0; v < camera.height; ++v)
       for (int u = 0; u < camera.width; ++u) {
-        const Eigen::Vector3d ray = world_from_camera.rotation * camera.Unproject(u, v, 1);
         double depth = 0;
-        const double gray = Shade(world_from_camera.translation, ray, boxes, &depth);
+        const double gray = ShadePixel(world_from_camera, u, v, boxes, &depth);
         image.gray.at<uint8_t>(v, u) = static_cast<uint8_t>(gray + rng.Uniform(-2, 2));
         image.depth_m.at<float>(v, u) =
             static_cast<float>(depth + depth_noise * DepthModel::SigmaM(depth) * rng.Gaussian());
@@ -57,6 +58,23 @@ class RenderedRoom {
   }
 
  private:
+  /// The mean over a pixel's area, as a sensor takes it: point samples would hide motions below a pixel.
+  /// depth: of its middle.
+  double ShadePixel(const Rigid3d& world_from_camera, int u, int v, const std::vector<RoomBox>& boxes,
+                    double* depth) const {
+    // A grid turned so that edges of either direction cross one sample after the other.
+    constexpr std::array<std::pair<double, double>, 4> kSamples{
+        {{-0.125, -0.375}, {0.375, -0.125}, {0.125, 0.375}, {-0.375, 0.125}}};
+    const auto shade = [&](double du, double dv) {
+      return Shade(world_from_camera.translation,
+                   world_from_camera.rotation * camera.Unproject(u + du, v + dv, 1), boxes, depth);
+    };
+    double sum = 0;
+    for (const auto& [du, dv] : kSamples) sum += shade(du, dv);
+    shade(0, 0);
+    return sum / kSamples.size();
+  }
+
   /// Depth (along a ray with z = 1 in the camera) at which it enters a box; 0: it misses.
   static double Entry(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray, const RoomBox& box) {
     const Eigen::Array3d to = (box.centre - origin).array(), d = ray.array();

@@ -96,8 +96,8 @@ TEST(CornerGate, GrowsWithTheNoiseWithinItsBounds) {
   EXPECT_EQ(MakeCornerGate({}, options).moving_px, options.max_px);
 }
 
-TEST(CornerGate, OfAQuartileIsThatOfThoseThatRestThoughHalfOfThePictureSways) {
-  const CornerGateOptions options{.quantile = 0.25, .min_px = 0.01f};
+TEST(CornerGate, IsThatOfThoseThatRestThoughHalfOfThePictureSways) {
+  const CornerGateOptions options{.min_px = 0.01f};
   std::vector<TrackedCorner> corners = Corners({});
   const float resting_px = MakeCornerGate(corners, options).moving_px;
   for (size_t i = 0; i < corners.size(); i += 2) corners[i].residual_px = 2;

@@ -27,11 +27,11 @@ struct FlowOptions {
 
 /// The camera's motion from corners.
 struct PoseFromCornersOptions {
-  int num_draws = 80;  // with 60 % outliers, 99 % certain to draw three inliers at least once
-  float inlier_px =
-      0.4f;               // grey px: 3 sigma of the flow. With 1 px, one who walks slowly passes for the room
-  double sigma_px = 0.7;  // grey px, of a corner's place: flow, depth and rolling shutter
-  int min_inliers = 12;   // twice the unknowns, each giving two equations
+  int num_draws = 80;      // with 60 % outliers, 99 % certain to draw three inliers at least once
+  float inlier_px = 0.4f;  // grey px: 3 sigma of the flow where pictures blur. With 1 px, one who walks
+                           // slowly passes for the room
+  double sigma_px = 0.7;   // grey px, of a corner's place: flow, depth and rolling shutter
+  int min_inliers = 12;    // twice the unknowns, each giving two equations
 };
 
 /// The depth camera's motion.
@@ -49,7 +49,11 @@ struct IcpOptions {
 struct CameraMotionOptions {
   CornerOptions corners;
   FlowOptions flow;
+  // Its inlier_px is the largest; mostly it follows the last frame's noise, for in sharp pictures somebody
+  // who starts to walk would fit together with the room.
   PoseFromCornersOptions pose;
+  float inlier_quartiles = 3.f;  // of the resting corners' residuals: 2.3 sigma, were they Gaussian
+  float min_inlier_px = 0.12f;   // grey px: 2 sigma of flow at its best
   IcpOptions icp;
   // Depth follows a person who walks along a wall, which itself says nothing of that direction. It is
   // believed if it differs from the corners' motion by no more than sigmas of its prior and what the clocks
@@ -88,10 +92,10 @@ struct FreeSpaceOptions {
 
 /// From which residual on a corner moves: as many times what those have that rested in the last mask.
 struct CornerGateOptions {
-  double quantile = 0.5;      // of the resting corners' residuals
-  float multiple = 8.f;       // of that quantile: nine sigma, for blur has long tails
-  float min_px = 0.4f;        // grey px: what the camera's own motion is fitted with
-  float max_px = 3.f;         // grey px, 3 sigma in the worst pictures
+  double quantile = 0.25;  // of the resting corners' residuals: who begins to move is among them, up to half
+  float multiple = 12.f;   // of that quantile: nine sigma, for blur has long tails
+  float min_px = 0.4f;     // grey px: what the camera's own motion is fitted with where pictures blur
+  float max_px = 3.f;      // grey px, 3 sigma in the worst pictures
   float max_sharp_px = 1.2f;  // gate of a sharp picture: in others blur and the rolling shutter let static
                               // surfaces slide too
   int min_resting = 20;       // corners, for the quantile; with fewer the gate is the largest
@@ -102,9 +106,7 @@ struct SlowFlowOptions {
   bool use_slow_flow = true;
   int age_frames =
       15;  // of the keyframe, half a second: somebody seated sways by 1 cm in it, 2 grey px at 1.5 m
-  // A quartile, since half of the picture may sway, and 5 sigma by it: flow over many frames errs by drift
-  // that all share and the pose takes up.
-  CornerGateOptions gate{.quantile = 0.25, .multiple = 7.f};
+  CornerGateOptions gate{.multiple = 7.f};  // five sigma: half a second averages blur
 };
 
 /// Surfaces that slide within themselves: what depth alone would confirm as static, but corners see moving.
