@@ -93,7 +93,7 @@ struct FreeSpaceOptions {
 /// From which residual on a corner moves: as many times what those have that rested in the last mask.
 struct CornerGateOptions {
   double quantile = 0.25;  // of the resting corners' residuals: who begins to move is among them, up to half
-  float multiple = 12.f;   // of that quantile: nine sigma, for blur has long tails
+  float multiple = 15.f;   // of that quantile: nine sigma or more, for blur has long tails
   float min_px = 0.4f;     // grey px: what the camera's own motion is fitted with where pictures blur
   float max_px = 3.f;      // grey px, 3 sigma in the worst pictures
   float max_sharp_px = 1.2f;  // gate of a sharp picture: in others blur and the rolling shutter let static
