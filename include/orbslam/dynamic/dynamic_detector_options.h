@@ -104,8 +104,7 @@ struct CornerGateOptions {
 /// Corners followed from a keyframe: who sways or breathes moves too little from one frame to the next.
 struct SlowFlowOptions {
   bool use_slow_flow = true;
-  int age_frames =
-      15;  // of the keyframe, half a second: somebody seated sways by 1 cm in it, 2 grey px at 1.5 m
+  int age_frames = 15;  // of the keyframe, half a second: who sits sways by 1 cm in it, 2 grey px at 1.5 m
   CornerGateOptions gate{.multiple = 7.f};  // five sigma: half a second averages blur
 };
 
