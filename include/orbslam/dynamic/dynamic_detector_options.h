@@ -53,7 +53,7 @@ struct CameraMotionOptions {
   // who starts to walk would fit together with the room.
   PoseFromCornersOptions pose;
   float inlier_quartiles = 3.f;  // of the resting corners' residuals: 2.3 sigma, were they Gaussian
-  float min_inlier_px = 0.12f;   // grey px: 2 sigma of flow at its best
+  float min_inlier_px = 0.2f;  // grey px: 3 sigma of flow at its best; tighter, a board before the lens wins
   IcpOptions icp;
   // Depth follows a person who walks along a wall, which itself says nothing of that direction. It is
   // believed if it differs from the corners' motion by no more than sigmas of its prior and what the clocks
