@@ -51,12 +51,15 @@ cv::Mat1f DepthlessLogOdds(const WorkingFrame& frame, const cv::Mat1f& carried,
       if (frame.depth_m(v, u) > 0) continue;
       weight(v, u) = 1;
       float value = options.memory * carried(v, u) + options.prior;
+      float flow = options.use_corners ? std::clamp(from_corners(v, u), -1.f, 1.f) : 0.f;
       if (options.use_background && background.depth_m(v, u) > 0) {
         const bool agrees = gray(v, u) > background.darkest(v, u) - options.noise_gray &&
                             gray(v, u) < background.brightest(v, u) + options.noise_gray;
         value += agrees ? options.agrees : options.differs;
+        // What rests looks as before, too: corners of somebody who comes straight on hardly move.
+        if (!agrees) flow = std::max(flow, 0.f);
       }
-      if (options.use_corners) value += std::clamp(from_corners(v, u), -1.f, 1.f);
+      value += flow;
       log_odds(v, u) = value;
     }
   return Smoothed(log_odds, weight);
@@ -81,7 +84,7 @@ cv::Mat1b GrowIntoDepthless(const cv::Mat1b& moving, const WorkingFrame& frame, 
         const cv::Point neighbor = cell + offset;
         if (!inside.contains(neighbor) || grown(neighbor) != 0 || frame.depth_m(neighbor) > 0) continue;
         const bool similar = std::abs(gray(neighbor) - gray(cell)) < options.similar_gray;
-        const float contact = step < options.free_steps ? options.near_contact
+        const float contact = step < options.free_steps ? options.contact
                               : similar                 ? options.similar_contact
                                                         : options.other_contact;
         if (log_odds(neighbor) + contact <= 0) continue;

@@ -160,9 +160,8 @@ struct GrowthOptions {
   float agrees = -0.6f;          // like it. Both small, for errors last from frame to frame
   float corner_moves = 0.8f;     // a corner nearby does not move as the static scene,
   float corner_rests = -0.5f;    // does
-  float contact = 0.5f;          // connected to a moving cell that has depth
+  float contact = 0.5f;          // connected to a moving cell that has depth; when growing, within free_steps of it,
   float memory = 0.9f;           // share of the last frame's that is kept: a third of a second
-  float near_contact = 1.f;      // when growing: within free_steps of a moving cell,
   float similar_contact = 0.3f;  // beyond it, of similar grey,
   float other_contact = -1.5f;   // not of similar grey
 };
