@@ -10,7 +10,6 @@ Exit codes: 0 done, 1 a run failed (its cells say so), 2 bad input.
 """
 import argparse
 import os
-import re
 import sys
 
 import command_line
@@ -43,14 +42,6 @@ def switches_of(report):
     if not switches:
         raise InputError(f"rgbd_tum reports no setting {PREFIX}* that is true or false: nothing to turn off")
     return switches
-
-
-def with_value(settings_text, key, value):
-    """The settings, as rgbd_tum writes them, with another value (text) of one."""
-    text, count = re.subn(rf"(?m)^{re.escape(key)}:.*$", lambda _: f"{key}: {value}", settings_text)
-    if count != 1:
-        raise InputError(f"rgbd_tum knows no setting {key}; its settings.yaml lists them")
-    return text
 
 
 def changes_of(report, also):
@@ -91,7 +82,7 @@ class Ablation:
             settings = file.read()
         path = os.path.join(self.folder, "settings.yaml")
         for title, key, value in changes_of(report, also):
-            command_line.write_lines(path, [with_value(settings, key, value).rstrip("\n")])
+            command_line.write_lines(path, [runs.with_value(settings, key, value).rstrip("\n")])
             self.run(title, path)
 
 

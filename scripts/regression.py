@@ -17,6 +17,7 @@ import yaml
 
 import command_line
 import compare_runs
+import median_ratio
 import regression_runs as runs
 from trajectory import InputError
 
@@ -34,6 +35,7 @@ EMPTY_RATIOS = ("ate_ratio_empty", "ate_ratio_hidden")
 FIGURES = {
     "ate_m": ("ATE RMSE with the detector", " m", 1),
     "ate_ratio": ("ATE RMSE with the detector over that without", "", 1),
+    "ate_ratio_median": ("median ATE RMSE of varied runs with the detector over that without", "", 1),
     "ate_ratio_empty": ("ATE RMSE over that of the same path with nobody there", "", 1),
     "ate_ratio_hidden": ("ATE RMSE over that with nobody there and the same pixels hidden", "", 1),
     "eta_percent": ("improvement eta of the ATE RMSE", " %", 1),
@@ -82,6 +84,7 @@ def figures_of(result):
     def ratio(baseline):
         return ate / baseline if baseline else None
     return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]),
+            "ate_ratio_median": result["ate_ratio_median"],
             **{name: ratio(result["empty_ate_m"].get(name)) for name in EMPTY_RATIOS},
             "eta_percent": result["improvement_percent"]["ate"]["rmse"],
             "coverage": with_it["coverage"]["ratio"],
@@ -124,6 +127,15 @@ def measure_empty(sequence, bounds, output, programs):
                                             options[name])["ate"]["rmse"] for name in wanted}
 
 
+def measure_median_ratio(sequence, bounds, folder, programs):
+    """The ratio of median_ratio.py, if it is bounded: it takes many runs."""
+    if not any(key.endswith("ate_ratio_median") for key in bounds or {}):
+        return None
+    runs.say(f"{sequence.name}: varied runs")
+    settings = median_ratio.read_settings(os.path.join(folder, "without"))
+    return median_ratio.median_ratio(sequence, os.path.join(folder, "varied"), programs, settings)
+
+
 def measure(sequence, bounds, output, programs):
     """Makes the sequence if need be and runs without and with the detector."""
     runs.make(sequence, programs)
@@ -134,6 +146,7 @@ def measure(sequence, bounds, output, programs):
     with_it, _ = runs.run_with_detector(sequence, os.path.join(folder, "with"), programs)
     return {"without": without, "with": with_it,
             "improvement_percent": compare_runs.compare(without, with_it),
+            "ate_ratio_median": measure_median_ratio(sequence, bounds, folder, programs),
             "empty_ate_m": measure_empty(sequence, bounds, output, programs)}
 
 

@@ -173,6 +173,14 @@ def track(sequence, folder, programs, options=(), settings=None, max_frames=0):
         return json.load(file)
 
 
+def with_value(settings_text, key, value):
+    """The settings, as rgbd_tum writes them, with another value (text or number) of one."""
+    text, count = re.subn(rf"(?m)^{re.escape(key)}:.*$", lambda _: f"{key}: {value}", settings_text)
+    if count != 1:
+        raise InputError(f"rgbd_tum knows no setting {key}; its settings.yaml lists them")
+    return text
+
+
 def trajectory_figures(sequence, folder, max_frames=0):
     """The errors of the trajectory in folder, as compare_runs.py has them; RunError if there are none."""
     frames = len(evaluate_masks.read_rgb_files(sequence.folder)[:max_frames or None])

@@ -16,16 +16,6 @@ cv::Point RoundedPixel(const OrbKeypoint& keypoint) {
   return {static_cast<int>(std::lround(keypoint.u)), static_cast<int>(std::lround(keypoint.v))};
 }
 
-std::vector<int> IndicesOffMask(const std::vector<OrbKeypoint>& keypoints, const cv::Mat& mask) {
-  std::vector<int> indices;
-  indices.reserve(keypoints.size());
-  for (int i = 0; i < static_cast<int>(keypoints.size()); ++i) {
-    const cv::Point pixel = RoundedPixel(keypoints[i]);
-    if (!Inside(mask, pixel) || mask.at<uint8_t>(pixel) == 0) indices.push_back(i);
-  }
-  return indices;
-}
-
 float DepthAt(const cv::Mat& depth_m, const cv::Point& pixel) {
   if (!Inside(depth_m, pixel)) return -1.0f;
   const float depth = depth_m.at<float>(pixel);
@@ -45,29 +35,23 @@ void ReadDepths(const std::vector<cv::Point>& raw_pixels, const cv::Mat& depth_m
 
 }  // namespace
 
-FrameFeatures MakeFrameFeatures(const OrbFeatures& raw, const cv::Mat& depth_m, const cv::Mat& mask,
-                                const PinholeCamera& camera, const ImageBounds& bounds,
-                                const DepthModel& depth_model) {
+FrameFeatures MakeFrameFeatures(const OrbFeatures& raw, const cv::Mat& depth_m, const PinholeCamera& camera,
+                                const ImageBounds& bounds, const DepthModel& depth_model) {
   ORBSLAM_CHECK(depth_m.empty() || depth_m.type() == CV_32FC1);
-  ORBSLAM_CHECK(mask.empty() || mask.type() == CV_8UC1);
-  const std::vector<int> kept = IndicesOffMask(raw.keypoints, mask);
-
+  const size_t size = raw.keypoints.size();
   FrameFeatures features;
   std::vector<cv::Point> raw_pixels;
-  for (auto* floats : {&features.angles_deg, &features.depths_m, &features.right_u})
-    floats->reserve(kept.size());
-  features.pixels.reserve(kept.size());
-  features.levels.reserve(kept.size());
-  features.descriptors.reserve(kept.size());
-  raw_pixels.reserve(kept.size());
-  for (const int i : kept) {
-    const OrbKeypoint& keypoint = raw.keypoints[i];
+  for (auto* floats : {&features.angles_deg, &features.depths_m, &features.right_u}) floats->reserve(size);
+  features.pixels.reserve(size);
+  features.levels.reserve(size);
+  raw_pixels.reserve(size);
+  for (const OrbKeypoint& keypoint : raw.keypoints) {
     features.pixels.emplace_back(keypoint.u, keypoint.v);
     features.angles_deg.push_back(keypoint.angle_deg);
     features.levels.push_back(keypoint.level);
-    features.descriptors.push_back(raw.descriptors[i]);
     raw_pixels.push_back(RoundedPixel(keypoint));
   }
+  features.descriptors = raw.descriptors;
   features.pixels = camera.Undistort(features.pixels);
   ReadDepths(raw_pixels, depth_m, depth_model, &features);
   features.grid = FeatureGrid(features.pixels, bounds);

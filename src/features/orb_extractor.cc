@@ -39,57 +39,87 @@ const OrbExtractorOptions& Checked(const OrbExtractorOptions& options) {
   return options;
 }
 
+struct Level {
+  cv::Rect Area() const {
+    return {kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx};
+  }
+  bool HasArea() const { return std::min(image.cols, image.rows) > 2 * kBorderPx; }
+
+  int wanted = 0;  // features
+  cv::Mat image;   // of the first level: the caller's
+  Shrinker shrinker;
+  Smoother smoother;
+  cv::Mat smooth;
+  std::vector<Corner> corners;
+};
+
+// Resizing maps centres of pixels: (x + 0.5) of a level is (x + 0.5) * its true scale in the image. cv::ORB
+// and ORB-SLAM2 multiply x alone, which moves corners of the coarsest level by more than a pixel against the
+// finest.
+class ToFullSize {
+ public:
+  ToFullSize(const cv::Mat& full, const cv::Mat& level)
+      : scale_u_(static_cast<float>(full.cols) / static_cast<float>(level.cols)),
+        scale_v_(static_cast<float>(full.rows) / static_cast<float>(level.rows)) {}
+
+  cv::Point2f operator()(const Corner& corner) const {
+    return {(static_cast<float>(corner.x) + 0.5f) * scale_u_ - 0.5f,
+            (static_cast<float>(corner.y) + 0.5f) * scale_v_ - 0.5f};
+  }
+
+ private:
+  float scale_u_, scale_v_;
+};
+
+bool IsSet(const cv::Mat& mask, const cv::Point2f& position) {
+  return mask.at<uint8_t>(static_cast<int>(std::lround(position.y)),
+                          static_cast<int>(std::lround(position.x))) != 0;
+}
+
 }  // namespace
 
 struct OrbExtractor::Impl {
   explicit Impl(const OrbExtractorOptions& orb_options)
       : options(Checked(orb_options)),
         scales(options.num_levels, options.scale_factor),
-        wanted(FeaturesPerLevel(options)),
-        images(options.num_levels),
-        shrinkers(options.num_levels),
-        corners(options.fast_threshold, options.min_fast_threshold) {}
+        levels(options.num_levels),
+        finder(options.fast_threshold, options.min_fast_threshold) {
+    const std::vector<int> wanted = FeaturesPerLevel(options);
+    for (int i = 0; i < options.num_levels; ++i) levels[i].wanted = wanted[i];
+  }
 
-  cv::Size LevelSize(int level) const;
-  void ExtractLevel(int level, OrbFeatures* features);
+  cv::Size LevelSize(const cv::Mat& image, int level) const;
+  void DescribeLevel(int level, const cv::Mat& mask, OrbFeatures* features);
 
   OrbExtractorOptions options;
   ScalePyramid scales;
-  std::vector<int> wanted;          // features, by level
-  std::vector<cv::Mat> images;      // by level; the first is the caller's
-  std::vector<Shrinker> shrinkers;  // to each level, from the one before
-  Smoother smoother;
-  cv::Mat smooth;
-  FastCorners corners;
+  std::vector<Level> levels;
+  int num_levels = 0;  // those of the present image that are large enough
+  FastCorners finder;
   std::vector<Corner> candidates;
 };
 
-cv::Size OrbExtractor::Impl::LevelSize(int level) const {
+cv::Size OrbExtractor::Impl::LevelSize(const cv::Mat& image, int level) const {
   const double scale = scales.Scale(level);
-  return {static_cast<int>(std::lrint(images[0].cols / scale)),
-          static_cast<int>(std::lrint(images[0].rows / scale))};
+  return {static_cast<int>(std::lrint(image.cols / scale)), static_cast<int>(std::lrint(image.rows / scale))};
 }
 
-void OrbExtractor::Impl::ExtractLevel(int level, OrbFeatures* features) {
-  const cv::Mat& image = images[level];
-  candidates = corners.Detect(image, kBorderPx);
-  const cv::Rect area(kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx);
-  const std::vector<Corner> chosen = SpreadByQuadTree(candidates, area, wanted[level]);
-  if (chosen.empty()) return;
-  smoother.Smooth(image, &smooth);
-  // Resizing maps centres of pixels: (x + 0.5) of a level is (x + 0.5) * its true scale in the image. cv::ORB
-  // and ORB-SLAM2 multiply x alone, which moves corners of the coarsest level by more than a pixel against
-  // the finest.
-  const float scale_u = static_cast<float>(images[0].cols) / static_cast<float>(image.cols);
-  const float scale_v = static_cast<float>(images[0].rows) / static_cast<float>(image.rows);
-  for (const Corner& corner : chosen) {
+void OrbExtractor::Impl::DescribeLevel(int index, const cv::Mat& mask, OrbFeatures* features) {
+  const Level& level = levels[index];
+  const ToFullSize to_full_size(levels[0].image, level.image);
+  candidates = level.corners;
+  if (!mask.empty()) {
+    std::erase_if(candidates, [&](const Corner& corner) { return IsSet(mask, to_full_size(corner)); });
+    features->num_dropped += static_cast<int>(level.corners.size() - candidates.size());
+  }
+  for (const Corner& corner : SpreadByQuadTree(candidates, level.Area(), level.wanted)) {
     const float angle_deg =
-        CentroidAngleDeg(image.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(image.step));
-    features->keypoints.push_back({(static_cast<float>(corner.x) + 0.5f) * scale_u - 0.5f,
-                                   (static_cast<float>(corner.y) + 0.5f) * scale_v - 0.5f, angle_deg,
-                                   static_cast<float>(corner.score), level});
-    features->descriptors.push_back(
-        DescribePixel(smooth.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(smooth.step), angle_deg));
+        CentroidAngleDeg(level.image.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(level.image.step));
+    const cv::Point2f position = to_full_size(corner);
+    features->keypoints.push_back(
+        {position.x, position.y, angle_deg, static_cast<float>(corner.score), index});
+    features->descriptors.push_back(DescribePixel(level.smooth.ptr(corner.y) + corner.x,
+                                                  static_cast<ptrdiff_t>(level.smooth.step), angle_deg));
   }
 }
 
@@ -99,21 +129,34 @@ OrbExtractor::~OrbExtractor() = default;
 
 const OrbExtractorOptions& OrbExtractor::options() const { return impl_->options; }
 
-OrbFeatures OrbExtractor::Extract(const cv::Mat& image) {
-  OrbFeatures features;
-  if (image.empty()) return features;
+void OrbExtractor::FindCorners(const cv::Mat& image) {
+  impl_->num_levels = 0;
+  if (image.empty()) return;
   ORBSLAM_CHECK(image.type() == CV_8UC1);
+  impl_->levels[0].image = image;
+  for (int i = 0; i < impl_->options.num_levels; ++i) {
+    Level& level = impl_->levels[i];
+    if (i > 0) level.shrinker.Shrink(impl_->levels[i - 1].image, impl_->LevelSize(image, i), &level.image);
+    if (!level.HasArea()) break;
+    level.corners = impl_->finder.Detect(level.image, kBorderPx);
+    level.smoother.Smooth(level.image, &level.smooth);
+    ++impl_->num_levels;
+  }
+}
+
+OrbFeatures OrbExtractor::Describe(const cv::Mat& mask) {
+  OrbFeatures features;
+  if (impl_->num_levels == 0) return features;
+  ORBSLAM_CHECK(mask.empty() || (mask.type() == CV_8UC1 && mask.size() == impl_->levels[0].image.size()));
   features.keypoints.reserve(impl_->options.num_features + 3 * impl_->options.num_levels);
   features.descriptors.reserve(features.keypoints.capacity());
-  impl_->images[0] = image;
-  for (int level = 0; level < impl_->options.num_levels; ++level) {
-    const cv::Size size = impl_->LevelSize(level);
-    if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
-    if (level > 0) impl_->shrinkers[level].Shrink(impl_->images[level - 1], size, &impl_->images[level]);
-    impl_->ExtractLevel(level, &features);
-  }
-  impl_->images[0].release();
+  for (int i = 0; i < impl_->num_levels; ++i) impl_->DescribeLevel(i, mask, &features);
   return features;
+}
+
+OrbFeatures OrbExtractor::Extract(const cv::Mat& image) {
+  FindCorners(image);
+  return Describe({});
 }
 
 }  // namespace orbslam

@@ -46,30 +46,33 @@ FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper,
 }
 
 Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_frame, FrameReport* report) {
-  OrbFeatures raw;
   {
     const auto measure = timer_.Measure("extract");
-    raw = extractor_.Extract(image.gray);
+    extractor_.FindCorners(image.gray);
   }
-  const auto features_off = [&](const cv::Mat& mask) {
-    return MakeFrameFeatures(raw, image.depth_m, mask, sensor_.camera, sensor_.bounds, sensor_.depth);
-  };
   report->moving = AskForMask(image.timestamp_s, mask_of_frame);
-  FrameFeatures features = features_off(report->moving.mask);
+  OrbFeatures raw = Describe(report->moving.mask);
   is_mask_unused_ =
-      features.size() < std::min(options_.min_unmasked_keypoints, static_cast<int>(raw.keypoints.size()));
+      raw.num_dropped > 0 && static_cast<int>(raw.keypoints.size()) < options_.min_unmasked_keypoints;
   if (is_mask_unused_) {
     report->moving.fail_open_reason =
-        "the mask leaves only " + std::to_string(features.size()) + " keypoints";
+        "the mask leaves only " + std::to_string(raw.keypoints.size()) + " keypoints";
     report->moving.mask = cv::Mat();
-    features = features_off(cv::Mat());
+    raw = Describe(cv::Mat());
   }
   report->masked_share = report->moving.MaskedShare();
   moving_ = MovingRegion(sensor_, report->moving.mask, image.depth_m);
-  report->num_dropped_keypoints = static_cast<int>(raw.keypoints.size()) - features.size();
+  report->num_dropped_keypoints = raw.num_dropped;
+  FrameFeatures features =
+      MakeFrameFeatures(raw, image.depth_m, sensor_.camera, sensor_.bounds, sensor_.depth);
   std::vector<MapPointId> points(features.size());
   return {image.id, image.timestamp_s, std::make_shared<const FrameFeatures>(std::move(features)), Rigid3d(),
           std::move(points)};
+}
+
+OrbFeatures Tracking::Describe(const cv::Mat& mask) {
+  const auto measure = timer_.Measure("describe");
+  return extractor_.Describe(mask);
 }
 
 DynamicMask Tracking::AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame) {

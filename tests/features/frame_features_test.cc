@@ -38,15 +38,15 @@ cv::Mat RandomDepth(Rng* rng) {
   return depth;
 }
 
-FrameFeatures Make(const OrbFeatures& raw, const cv::Mat& depth, const cv::Mat& mask) {
-  return MakeFrameFeatures(raw, depth, mask, kCamera, UndistortedBounds(kCamera), DepthModel());
+FrameFeatures Make(const OrbFeatures& raw, const cv::Mat& depth) {
+  return MakeFrameFeatures(raw, depth, kCamera, UndistortedBounds(kCamera), DepthModel());
 }
 
 TEST(FrameFeatures, DepthIsThatOfTheRawPixelAndValidOrMinusOne) {
   Rng rng(1);
   const OrbFeatures raw = RandomFeatures(500, &rng);
   const cv::Mat depth = RandomDepth(&rng);
-  const FrameFeatures features = Make(raw, depth, {});
+  const FrameFeatures features = Make(raw, depth);
   ASSERT_EQ(features.size(), 500);
   for (int i = 0; i < features.size(); ++i) {
     const cv::Point pixel(static_cast<int>(std::lround(raw.keypoints[i].u)),
@@ -63,7 +63,7 @@ TEST(FrameFeatures, DepthIsThatOfTheRawPixelAndValidOrMinusOne) {
 TEST(FrameFeatures, DistortingItsPixelsGivesTheRawOnes) {
   Rng rng(2);
   const OrbFeatures raw = RandomFeatures(200, &rng);
-  const FrameFeatures features = Make(raw, {}, {});
+  const FrameFeatures features = Make(raw, {});
   ASSERT_EQ(features.size(), 200);
   for (int i = 0; i < features.size(); ++i) {
     const auto distorted = kCamera.Distort({features.pixels[i].x, features.pixels[i].y});
@@ -73,32 +73,9 @@ TEST(FrameFeatures, DistortingItsPixelsGivesTheRawOnes) {
   }
 }
 
-TEST(FrameFeatures, KeepsExactlyTheKeypointsOffTheMaskInOrder) {
-  Rng rng(3);
-  const OrbFeatures raw = RandomFeatures(500, &rng);
-  cv::Mat mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(0));
-  mask(cv::Rect(100, 80, 300, 200)).setTo(255);
-  mask.row(300).setTo(1);
-  const FrameFeatures features = Make(raw, {}, mask);
-  int k = 0;
-  for (size_t i = 0; i < raw.keypoints.size(); ++i) {
-    const auto& keypoint = raw.keypoints[i];
-    if (mask.at<uint8_t>(static_cast<int>(std::lround(keypoint.v)),
-                         static_cast<int>(std::lround(keypoint.u))))
-      continue;
-    ASSERT_LT(k, features.size());
-    EXPECT_EQ(features.descriptors[k], raw.descriptors[i]);
-    EXPECT_EQ(features.angles_deg[k], keypoint.angle_deg);
-    EXPECT_EQ(features.levels[k], keypoint.level);
-    ++k;
-  }
-  EXPECT_EQ(features.size(), k);
-  EXPECT_LT(k, 450);
-}
-
 TEST(FrameFeatures, GridHoldsEveryKeypoint) {
   Rng rng(4);
-  const FrameFeatures features = Make(RandomFeatures(100, &rng), {}, {});
+  const FrameFeatures features = Make(RandomFeatures(100, &rng), {});
   std::vector<int> found;
   for (int i = 0; i < features.size(); ++i) {
     features.grid.Near(features.pixels[i].x, features.pixels[i].y, 0.5f, features.pixels, features.levels,
@@ -107,7 +84,7 @@ TEST(FrameFeatures, GridHoldsEveryKeypoint) {
   }
 }
 
-TEST(FrameFeatures, NoKeypointsNoFeatures) { EXPECT_EQ(Make({}, {}, {}).size(), 0); }
+TEST(FrameFeatures, NoKeypointsNoFeatures) { EXPECT_EQ(Make({}, {}).size(), 0); }
 
 }  // namespace
 }  // namespace orbslam

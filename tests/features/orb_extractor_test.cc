@@ -95,6 +95,35 @@ TEST(OrbExtractor, PlainImagesHaveNoFeatures) {
   }
 }
 
+TEST(OrbExtractor, WhatIsMaskedTakesNoKeypointFromTheRest) {
+  const cv::Size size(640, 480);
+  cv::Mat mask(size, CV_8UC1, cv::Scalar(255));
+  mask(cv::Rect(400, 100, 200, 300)) = 0;
+  OrbExtractor extractor({.num_features = 300});
+  extractor.FindCorners(ShapesImage(size, 10));
+  const OrbFeatures all = extractor.Describe({}), off_mask = extractor.Describe(mask);
+  EXPECT_EQ(all.num_dropped, 0);
+  EXPECT_NEAR(static_cast<double>(off_mask.keypoints.size()), 300, 30);
+  EXPECT_EQ(off_mask.descriptors.size(), off_mask.keypoints.size());
+  for (const auto& k : off_mask.keypoints) {
+    EXPECT_EQ(mask.at<uint8_t>(static_cast<int>(std::lround(k.v)), static_cast<int>(std::lround(k.u))), 0);
+  }
+}
+
+TEST(OrbExtractor, EveryCornerIsDroppedByTheMaskOrByItsComplement) {
+  const cv::Size size(320, 240);
+  cv::Mat left(size, CV_8UC1, cv::Scalar(0));
+  left(cv::Rect(0, 0, 150, 240)) = 1;
+  const cv::Mat whole(size, CV_8UC1, cv::Scalar(1)), right = whole - left;
+  OrbExtractor extractor({});
+  extractor.FindCorners(ShapesImage(size, 11));
+  EXPECT_GT(extractor.Describe(left).num_dropped, 0);
+  EXPECT_GT(extractor.Describe(right).num_dropped, 0);
+  EXPECT_EQ(extractor.Describe(left).num_dropped + extractor.Describe(right).num_dropped,
+            extractor.Describe(whole).num_dropped);
+  EXPECT_TRUE(extractor.Describe(whole).keypoints.empty());
+}
+
 TEST(OrbExtractor, RepeatsItself) {
   const auto as_tuple = [](const OrbKeypoint& k) {
     return std::tie(k.u, k.v, k.angle_deg, k.response, k.level);

@@ -7,7 +7,8 @@ import re
 import unittest
 
 from regression_support import NAME, StubbedTest
-from ablation import switches_of, with_value
+from ablation import switches_of
+from regression_runs import with_value
 from trajectory import InputError
 
 

@@ -15,7 +15,7 @@ import random
 import shutil
 import sys
 
-SETTINGS = {"Camera.fps": 30.0, "DynamicDetector.enabled": True, "DynamicDetector.freeSpace": True,
+SETTINGS = {"Camera.fps": 30.0, "ORBextractor.nFeatures": 1000, "DynamicDetector.enabled": True, "DynamicDetector.freeSpace": True,
             "DynamicDetector.minPoints": 1, "Tracking.other": True}
 
 
@@ -87,7 +87,7 @@ def rgbd_tum():
     estimate = [[row[0], *(f"{float(x) + noise.gauss(0, sigma_m):.6f}" for x in row[1:4]), *row[4:]]
                 for row in rows]
     (output / "CameraTrajectory.txt").write_text("".join(" ".join(row) + "\n" for row in estimate))
-    values = {key: f"{key}: {int(value)}\n" for key, value in SETTINGS.items()}
+    values = {key: f"{key}: {int(value)}  # what it is\n" for key, value in SETTINGS.items()}
     (output / "settings.yaml").write_text("%YAML:1.0\n---\n" + "".join(values.values()))
     per_frame = {"detector_latency_s": [0.01] * len(rows), "masked_share": [0.25] * len(rows),
                  "fail_open": ["lost"] + [""] * (len(rows) - 1)}

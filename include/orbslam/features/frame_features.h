@@ -28,8 +28,8 @@ struct FrameFeatures {
 };
 
 /// Undistorts the keypoints and reads their depth (metres, CV_32FC1, same size as the raw image, <= 0 or nan: none)
-/// at their raw pixels. Keypoints on a non-zero pixel of mask (CV_8UC1, or empty: keep all) are dropped first.
-FrameFeatures MakeFrameFeatures(const OrbFeatures& raw, const cv::Mat& depth_m, const cv::Mat& mask,
-                                const PinholeCamera& camera, const ImageBounds& bounds, const DepthModel& depth_model);
+/// at their raw pixels.
+FrameFeatures MakeFrameFeatures(const OrbFeatures& raw, const cv::Mat& depth_m, const PinholeCamera& camera,
+                                const ImageBounds& bounds, const DepthModel& depth_model);
 
 }  // namespace orbslam

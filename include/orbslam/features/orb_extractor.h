@@ -20,6 +20,7 @@ struct OrbKeypoint {
 struct OrbFeatures {
   std::vector<OrbKeypoint> keypoints;
   std::vector<Descriptor> descriptors;  // one a keypoint
+  int num_dropped = 0;                  // corners that a mask covers
 };
 
 struct OrbExtractorOptions {
@@ -39,6 +40,13 @@ class OrbExtractor {
 
   /// image: CV_8UC1. Keypoints come in ascending level. A small or featureless image gives few or none.
   OrbFeatures Extract(const cv::Mat& image);
+
+  /// The same in two steps, for a mask that comes later than the image. All corners of image (CV_8UC1, not
+  /// copied: it must stay as it is until the last Describe of it):
+  void FindCorners(const cv::Mat& image);
+  /// num_features of them, spread over what is off the mask (CV_8UC1 of the image's size, non-zero: no
+  /// keypoints there; or empty), so that what is masked takes no keypoint from the rest.
+  OrbFeatures Describe(const cv::Mat& mask);
 
   const OrbExtractorOptions& options() const;
 

@@ -64,11 +64,11 @@ struct FrameReport {
   Rigid3d camera_from_reference;  // what trajectories are made of, since keyframes are refined later
   double tracking_s = 0;          // wall time from the image to the pose
   double tracking_cpu_s = 0;      // CPU time of the calling thread in it
-  int num_keypoints = 0;          // those on moving objects left out
+  int num_keypoints = 0;          // described: none on a moving object
   int num_matches = 0;            // inliers among the map points it sees
   DynamicMask moving;             // the mask that was used; its fail_open_reason also says why one was not
   double masked_share = 0;        // of the image, in [0, 1]
-  int num_dropped_keypoints = 0;  // those on moving objects
+  int num_dropped_keypoints = 0;  // corners on moving objects, of all that were found
   std::optional<KeyFrameReady> new_keyframe;
 };
 
