@@ -78,8 +78,7 @@ class Ablation:
         report = self.run(BASELINE)
         if report is None:
             return
-        with open(os.path.join(self.folder_of(BASELINE), "settings.yaml"), encoding="utf-8") as file:
-            settings = file.read()
+        settings = runs.read_settings(self.folder_of(BASELINE))
         path = os.path.join(self.folder, "settings.yaml")
         for title, key, value in changes_of(report, also):
             command_line.write_lines(path, [runs.with_value(settings, key, value).rstrip("\n")])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the detector costs or wins beyond chance.
 
-The error of one run hangs on chance: a keypoint more moves it by 5 % (standard deviation) on fr1_rpy. So runs
+The error of one run hangs on chance: a few keypoints more move it by 5 % (standard deviation) on fr1_rpy. So runs
 are repeated with slightly different numbers of keypoints, and their medians compared.
 """
 import os
@@ -14,12 +14,6 @@ from trajectory import InputError
 
 NUM_FEATURES = "ORBextractor.nFeatures"
 VARIATIONS = [percent / 100 for percent in range(96, 105)]  # of the number of keypoints
-
-
-def read_settings(folder):
-    """All settings of the run in folder, as rgbd_tum wrote them."""
-    with open(os.path.join(folder, "settings.yaml"), encoding="utf-8") as file:
-        return file.read()
 
 
 def num_features_of(settings_text):

@@ -132,7 +132,7 @@ def measure_median_ratio(sequence, bounds, folder, programs):
     if not any(key.endswith("ate_ratio_median") for key in bounds or {}):
         return None
     runs.say(f"{sequence.name}: varied runs")
-    settings = median_ratio.read_settings(os.path.join(folder, "without"))
+    settings = runs.read_settings(os.path.join(folder, "without"))
     return median_ratio.median_ratio(sequence, os.path.join(folder, "varied"), programs, settings)
 
 

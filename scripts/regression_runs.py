@@ -173,6 +173,12 @@ def track(sequence, folder, programs, options=(), settings=None, max_frames=0):
         return json.load(file)
 
 
+def read_settings(folder):
+    """All settings of the run in folder, as rgbd_tum wrote them."""
+    with open(os.path.join(folder, "settings.yaml"), encoding="utf-8") as file:
+        return file.read()
+
+
 def with_value(settings_text, key, value):
     """The settings, as rgbd_tum writes them, with another value (text or number) of one."""
     text, count = re.subn(rf"(?m)^{re.escape(key)}:.*$", lambda _: f"{key}: {value}", settings_text)

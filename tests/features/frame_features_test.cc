@@ -69,6 +69,9 @@ TEST(FrameFeatures, DistortingItsPixelsGivesTheRawOnes) {
     const auto distorted = kCamera.Distort({features.pixels[i].x, features.pixels[i].y});
     EXPECT_NEAR(distorted.x(), raw.keypoints[i].u, 0.05);
     EXPECT_NEAR(distorted.y(), raw.keypoints[i].v, 0.05);
+    EXPECT_EQ(features.descriptors[i], raw.descriptors[i]);
+    EXPECT_EQ(features.angles_deg[i], raw.keypoints[i].angle_deg);
+    EXPECT_EQ(features.levels[i], raw.keypoints[i].level);
     EXPECT_FALSE(features.HasDepth(i));
   }
 }
