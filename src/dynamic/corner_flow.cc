@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/features2d.hpp>
 
 namespace orbslam {
@@ -32,21 +33,38 @@ bool Sample(const cv::Mat1f& image, float x, float y, float* out) {
   return true;
 }
 
+/// Sum of the products of two patches, in a lane a column: the compiler may add lanes side by side, but may
+/// not change the order of additions by itself.
+float Dot(const float (&a)[kPixels], const float (&b)[kPixels]) {
+  float lanes[kSize] = {};
+  for (int j = 0; j < kPixels; j += kSize)
+    for (int i = 0; i < kSize; ++i) lanes[i] += a[j + i] * b[j + i];
+  return std::accumulate(lanes, lanes + kSize, 0.0f);
+}
+
+float Sum(const float (&values)[kPixels]) {
+  float lanes[kSize] = {};
+  for (int j = 0; j < kPixels; j += kSize)
+    for (int i = 0; i < kSize; ++i) lanes[i] += values[j + i];
+  return std::accumulate(lanes, lanes + kSize, 0.0f);
+}
+
 /// The template at a position: values, slopes by central differences, and the inverse of their tensor.
 bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, float min_texture, Patch* patch) {
   constexpr int kWide = kSize + 2;
   float wide[kWide * kWide];
   if (!Sample<kWide, kWide>(image, centre.x - kHalf - 1, centre.y - kHalf - 1, wide)) return false;
-  float xx = 0, xy = 0, yy = 0;
   for (int j = 0; j < kSize; ++j) {
     const float* row = wide + (j + 1) * kWide + 1;
     for (int i = 0; i < kSize; ++i) {
-      const float gx = 0.5f * (row[i + 1] - row[i - 1]), gy = 0.5f * (row[i + kWide] - row[i - kWide]);
       const int k = j * kSize + i;
-      patch->value[k] = row[i], patch->slope_x[k] = gx, patch->slope_y[k] = gy;
-      xx += gx * gx, xy += gx * gy, yy += gy * gy;
+      patch->value[k] = row[i];
+      patch->slope_x[k] = 0.5f * (row[i + 1] - row[i - 1]);
+      patch->slope_y[k] = 0.5f * (row[i + kWide] - row[i - kWide]);
     }
   }
+  const float xx = Dot(patch->slope_x, patch->slope_x), xy = Dot(patch->slope_x, patch->slope_y);
+  const float yy = Dot(patch->slope_y, patch->slope_y);
   const float smaller = 0.5f * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy));
   if (smaller < min_texture * kPixels) return false;
   const float inverse_det = 1 / (xx * yy - xy * xy);
@@ -61,19 +79,16 @@ bool Refine(const Patch& patch, const cv::Mat1f& image, const FlowOptions& optio
   float now[kPixels], error[kPixels];
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
-    float bx = 0, by = 0;
     for (int k = 0; k < kPixels; ++k) error[k] = patch.value[k] - now[k];
-    for (int k = 0; k < kPixels; ++k) bx += error[k] * patch.slope_x[k];
-    for (int k = 0; k < kPixels; ++k) by += error[k] * patch.slope_y[k];
+    const float bx = Dot(error, patch.slope_x), by = Dot(error, patch.slope_y);
     const float dx = patch.inverse_xx * bx + patch.inverse_xy * by;
     const float dy = patch.inverse_xy * bx + patch.inverse_yy * by;
     position->x += dx, position->y += dy;
     if (dx * dx + dy * dy < options.min_step_px * options.min_step_px) break;
   }
   if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
-  float sum = 0;
-  for (int k = 0; k < kPixels; ++k) sum += std::abs(patch.value[k] - now[k]);
-  *difference_grey = sum / kPixels;
+  for (int k = 0; k < kPixels; ++k) error[k] = std::abs(patch.value[k] - now[k]);
+  *difference_grey = Sum(error) / kPixels;
   return true;
 }
 

@@ -35,9 +35,11 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
               int stride, Sums* sums) {
   const Eigen::Matrix3f r = target_from_source.RotationMatrix().cast<float>();
   const Eigen::Vector3f t = target_from_source.translation.cast<float>();
-  const WorkingFrame& frame = *target.frame;
+  const float *target_depth_m = target.frame->depth_m[0], *normal_x = target.frame->normal_x[0],
+              *normal_y = target.frame->normal_y[0], *normal_z = target.frame->normal_z[0];
+  const uint8_t* ignored = target.ignored != nullptr ? (*target.ignored)[0] : nullptr;
   const float inverse_fx = 1 / camera.fx, inverse_fy = 1 / camera.fy;
-  const float gate2 = options.gate_sigma * options.gate_sigma;
+  const float inverse_gate2 = 1 / (options.gate_sigma * options.gate_sigma);
   for (int v = stride / 2; v < camera.height; v += stride) {
     const float* depth = source.depth_m[v];
     const float b = (static_cast<float>(v) - camera.cy) * inverse_fy;
@@ -55,21 +57,22 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
       if (pu < 0 || pv < 0 || pu >= static_cast<float>(camera.width) ||
           pv >= static_cast<float>(camera.height))
         continue;
-      const int tu = static_cast<int>(pu), tv = static_cast<int>(pv);
-      const float nz = frame.normal_z(tv, tu), tz = frame.depth_m(tv, tu);
-      if (nz == 0 || (target.ignored != nullptr && (*target.ignored)(tv, tu) != 0)) continue;
-      const float nx = frame.normal_x(tv, tu), ny = frame.normal_y(tv, tu);
+      const int tu = static_cast<int>(pu), tv = static_cast<int>(pv), at = tv * camera.width + tu;
+      const float nz = normal_z[at], tz = target_depth_m[at];
+      if (nz == 0 || (ignored != nullptr && ignored[at] != 0)) continue;
+      const float nx = normal_x[at], ny = normal_y[at];
       const float tx = (static_cast<float>(tu) - camera.cx) * inverse_fx * tz;
       const float ty = (static_cast<float>(tv) - camera.cy) * inverse_fy * tz;
       const float residual = nx * (qx - tx) + ny * (qy - ty) + nz * (qz - tz);
       if (std::abs(residual) > options.max_distance_m) continue;
       const float sigma = std::abs(nz) * (DepthSigmaM(z) + DepthSigmaM(tz)) * 0.7071f + 0.001f;
-      const float share2 = residual * residual / (sigma * sigma * gate2);
+      const float information = 1 / (sigma * sigma);
+      const float share2 = residual * residual * information * inverse_gate2;
       ++sums->num_pairs;
       if (share2 < 1) ++sums->num_fitting;
       const float outer = share2 * 0.25f;  // Tukey's biweight, redescending at twice the gate
       if (outer >= 1) continue;
-      const float weight = (1 - outer) * (1 - outer) / (sigma * sigma);
+      const float weight = (1 - outer) * (1 - outer) * information;
       const float mx = r(0, 0) * nx + r(1, 0) * ny + r(2, 0) * nz;  // the normal in the source frame
       const float my = r(0, 1) * nx + r(1, 1) * ny + r(2, 1) * nz;
       const float mz = r(0, 2) * nx + r(1, 2) * ny + r(2, 2) * nz;

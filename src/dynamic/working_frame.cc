@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "normals.h"
@@ -26,20 +27,47 @@ Eigen::Vector2d RawPixel(const PinholeCamera& camera, int step, int u, int v) {
   return camera.Distort({u * step + shift, v * step + shift});
 }
 
+/// What the measured pixels of a block have in common.
+struct BlockSums {
+  float sum_m = 0, lowest_m = 1e9f, highest_m = 0;
+  int count = 0;
+};
+
+BlockSums SumBlock(const float* corner, size_t stride, int step) {
+  constexpr float kNone = 1e9f;
+  cv::v_float32x4 sum = cv::v_setzero_f32(), lowest = cv::v_setall_f32(kNone), highest = sum, count = sum;
+  BlockSums all;
+  for (int y = 0; y < step; ++y) {
+    const float* row = corner + y * stride;
+    int x = 0;
+    for (; x + 4 <= step; x += 4) {
+      const cv::v_float32x4 z = cv::v_load(row + x), is_measured = z > cv::v_setzero_f32();
+      const cv::v_float32x4 measured = z & is_measured;
+      sum += measured;
+      count += cv::v_setall_f32(1) & is_measured;
+      highest = cv::v_max(highest, measured);
+      lowest = cv::v_min(lowest, cv::v_select(is_measured, z, cv::v_setall_f32(kNone)));
+    }
+    for (; x < step; ++x) {
+      if (!(row[x] > 0)) continue;
+      all.sum_m += row[x], ++all.count;
+      all.lowest_m = std::min(all.lowest_m, row[x]), all.highest_m = std::max(all.highest_m, row[x]);
+    }
+  }
+  all.sum_m += cv::v_reduce_sum(sum), all.count += static_cast<int>(cv::v_reduce_sum(count));
+  all.lowest_m = std::min(all.lowest_m, cv::v_reduce_min(lowest));
+  all.highest_m = std::max(all.highest_m, cv::v_reduce_max(highest));
+  return all;
+}
+
 /// The depth of a block of raw pixels: the mean of its larger group, if a depth edge splits it.
 float BlockDepth(const float* corner, size_t stride, int step) {
-  float sum = 0, lowest = 1e9f, highest = 0;
-  int count = 0;
-  for (int y = 0; y < step; ++y)
-    for (int x = 0; x < step; ++x) {
-      const float z = corner[y * stride + x];
-      if (!(z > 0)) continue;
-      sum += z, ++count;
-      lowest = std::min(lowest, z), highest = std::max(highest, z);
-    }
-  if (count * 4 < step * step) return 0;  // mostly unmeasured: edges and shadows, where values are unreliable
-  if (highest - lowest < MaxSurfaceStepM(lowest)) return sum / static_cast<float>(count);
-  const float middle = (lowest + highest) / 2;
+  const BlockSums all = SumBlock(corner, stride, step);
+  if (all.count * 4 < step * step)
+    return 0;  // mostly unmeasured: edges and shadows, where values are unreliable
+  if (all.highest_m - all.lowest_m < MaxSurfaceStepM(all.lowest_m))
+    return all.sum_m / static_cast<float>(all.count);
+  const float middle = (all.lowest_m + all.highest_m) / 2;
   float near_sum = 0;
   int near_count = 0;
   for (int y = 0; y < step; ++y)
@@ -47,8 +75,8 @@ float BlockDepth(const float* corner, size_t stride, int step) {
       const float z = corner[y * stride + x];
       if (z > 0 && z < middle) near_sum += z, ++near_count;
     }
-  if (near_count * 2 >= count) return near_sum / static_cast<float>(near_count);
-  return (sum - near_sum) / static_cast<float>(count - near_count);
+  if (near_count * 2 >= all.count) return near_sum / static_cast<float>(near_count);
+  return (all.sum_m - near_sum) / static_cast<float>(all.count - near_count);
 }
 
 }  // namespace
