@@ -16,7 +16,7 @@ PoseCost BuildCost(const PoseProblem& problem, const PoseOptimizerOptions& optio
   cost.Reserve(problem.observations.size());
   for (const PoseObservation& o : problem.observations) {
     const double max_chi2 = o.pixel.z() < 0 ? options.max_chi2_mono : options.max_chi2_stereo;
-    cost.AddForward(o.point_world, {o.pixel, o.weight * o.inverse_variance, o.weight * max_chi2});
+    cost.AddForward(o.point_world, {o.pixel, o.inverse_variance, max_chi2});
   }
   return cost;
 }

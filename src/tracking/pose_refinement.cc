@@ -12,14 +12,6 @@ void ForgetOutliers(const PoseResult& result, const std::vector<int>& keypoints,
   }
 }
 
-// A loaded map's time stamps may be from another clock, in whose future the frame is not: all has stood.
-double WeightOf(const MapPoint& point, const MapData& map, double now_s) {
-  const KeyFrame* creator = map.Find(point.created_by);
-  if (creator == nullptr) return 1;
-  const double age_s = now_s - creator->timestamp_s;
-  return age_s >= 0 && age_s < kProbationS ? kProbationWeight : 1;
-}
-
 }  // namespace
 
 FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* frame) {
@@ -34,8 +26,7 @@ FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* 
     const cv::Point2f& pixel = features.pixels[i];
     gathered.problem.observations.push_back({point->position_world,
                                              {pixel.x, pixel.y, features.right_u[i]},
-                                             sensor.pyramid.InverseVariance(features.levels[i]),
-                                             WeightOf(*point, *guard, frame->timestamp_s)});
+                                             sensor.pyramid.InverseVariance(features.levels[i])});
     gathered.keypoints.push_back(i);
   }
   return gathered;

@@ -72,38 +72,6 @@ TEST(PoseOptimizer, SurvivesFortyPercentOutliers) {
   }
 }
 
-/// Two groups of the same size disagree by a small turn of the camera, within the gate; the first weighs w.
-TEST(PoseOptimizer, GroupsThatDisagreePullByTheirWeights) {
-  Rng rng(7);
-  Truth truth;
-  PoseProblem problem = RandomProblem(400, 0, 0, &rng, &truth);
-  const Rigid3d other = Rigid3d{So3Exp({0, 0.002, 0}), {0, 0, 0}} * truth.camera_from_world;  // 1 px
-  const Rigid3d first_moved = Inverse(other) * truth.camera_from_world;
-  for (int i = 0; i < 400; i += 2) {
-    PoseObservation& o = problem.observations[i];
-    o.point_world = first_moved * o.point_world;
-  }
-  double last_angle = 0;  // from what the second group says
-  for (const double weight : {0.01, 0.25, 1.0, 4.0, 100.0}) {
-    for (int i = 0; i < 400; i += 2) problem.observations[i].weight = weight;
-    const PoseResult result = OptimizePose(problem);
-    EXPECT_EQ(result.num_inliers, 400) << "the gate is the same for all, weight " << weight;
-    const double angle = AngleError(result.camera_from_world, truth.camera_from_world);
-    EXPECT_NEAR(angle, 0.002 * weight / (1 + weight), 0.0002) << weight;
-    EXPECT_GT(angle, last_angle);
-    last_angle = angle;
-  }
-}
-
-TEST(PoseOptimizer, WeightDoesNotMoveTheGate) {
-  Rng rng(8);
-  Truth truth;
-  PoseProblem problem = RandomProblem(300, 1.0, 0.4, &rng, &truth);
-  const PoseResult full = OptimizePose(problem);
-  for (PoseObservation& o : problem.observations) o.weight = 0.25;
-  EXPECT_EQ(OptimizePose(problem).is_inlier, full.is_inlier);
-}
-
 TEST(PoseOptimizer, RepeatsBitForBit) {
   Rng rng(3);
   Truth truth;

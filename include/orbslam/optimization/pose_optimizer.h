@@ -13,7 +13,6 @@ struct PoseObservation {
   Eigen::Vector3d point_world;  // m
   Eigen::Vector3d pixel;        // (u, v, u_right), undistorted px; u_right < 0: the keypoint has no depth
   double inverse_variance = 1;  // 1 / px^2
-  double weight = 1;            // among the others; the gate does not depend on it
 };
 
 struct PoseProblem {

@@ -8,12 +8,6 @@
 
 namespace orbslam {
 
-/// A point counts for less until it has stood long enough to show whether it stands at all: somebody who sets
-/// off is known to the DynamicDetector only after some of its nine frames, and a keyframe made until then has
-/// points on him, which agree with each other and with nothing else.
-inline constexpr double kProbationS = 0.5;        // nine frames at 30 Hz, with a margin
-inline constexpr double kProbationWeight = 0.25;  // as if its error's standard deviation were twice as large
-
 /// The frame's matches as an optimisation problem, and the keypoint of each observation.
 struct FramePoseProblem {
   PoseProblem problem;
