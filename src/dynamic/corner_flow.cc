@@ -33,20 +33,18 @@ bool Sample(const cv::Mat1f& image, float x, float y, float* out) {
   return true;
 }
 
-/// Sum of the products of two patches, in a lane a column: the compiler may add lanes side by side, but may
-/// not change the order of additions by itself.
-float Dot(const float (&a)[kPixels], const float (&b)[kPixels]) {
+/// Sum of term(pixel) over a patch, in a lane a column: the compiler may add lanes side by side, but may not
+/// change the order of additions by itself.
+template <class Term>
+float SumOverPatch(const Term& term) {
   float lanes[kSize] = {};
   for (int j = 0; j < kPixels; j += kSize)
-    for (int i = 0; i < kSize; ++i) lanes[i] += a[j + i] * b[j + i];
+    for (int i = 0; i < kSize; ++i) lanes[i] += term(j + i);
   return std::accumulate(lanes, lanes + kSize, 0.0f);
 }
 
-float Sum(const float (&values)[kPixels]) {
-  float lanes[kSize] = {};
-  for (int j = 0; j < kPixels; j += kSize)
-    for (int i = 0; i < kSize; ++i) lanes[i] += values[j + i];
-  return std::accumulate(lanes, lanes + kSize, 0.0f);
+float Dot(const float (&a)[kPixels], const float (&b)[kPixels]) {
+  return SumOverPatch([&](int k) { return a[k] * b[k]; });
 }
 
 /// The template at a position: values, slopes by central differences, and the inverse of their tensor.
@@ -87,8 +85,7 @@ bool Refine(const Patch& patch, const cv::Mat1f& image, const FlowOptions& optio
     if (dx * dx + dy * dy < options.min_step_px * options.min_step_px) break;
   }
   if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
-  for (int k = 0; k < kPixels; ++k) error[k] = std::abs(patch.value[k] - now[k]);
-  *difference_grey = Sum(error) / kPixels;
+  *difference_grey = SumOverPatch([&](int k) { return std::abs(patch.value[k] - now[k]); }) / kPixels;
   return true;
 }
 

@@ -27,14 +27,16 @@ Eigen::Vector2d RawPixel(const PinholeCamera& camera, int step, int u, int v) {
   return camera.Distort({u * step + shift, v * step + shift});
 }
 
-/// What the measured pixels of a block have in common.
+constexpr float kNone = 1e9f;  // metres, lowest of no depth at all
+
+/// What there is to say of the measured pixels of a block.
 struct BlockSums {
-  float sum_m = 0, lowest_m = 1e9f, highest_m = 0;
+  float sum_m = 0, lowest_m = kNone, highest_m = 0;
   int count = 0;
 };
 
+/// Four columns at a time; the loop over the rest is for steps of 2 and 6.
 BlockSums SumBlock(const float* corner, size_t stride, int step) {
-  constexpr float kNone = 1e9f;
   cv::v_float32x4 sum = cv::v_setzero_f32(), lowest = cv::v_setall_f32(kNone), highest = sum, count = sum;
   BlockSums all;
   for (int y = 0; y < step; ++y) {
