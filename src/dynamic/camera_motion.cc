@@ -8,34 +8,6 @@
 namespace orbslam {
 namespace {
 
-Eigen::Vector3f Point(const GridCamera& camera, cv::Point2f pixel, float depth_m) {
-  return {(pixel.x - camera.cx) / camera.fx * depth_m, (pixel.y - camera.cy) / camera.fy * depth_m, depth_m};
-}
-
-cv::Point2f Project(const GridCamera& camera, const Rigid3d& pose, const Eigen::Vector3f& x) {
-  const Eigen::Vector3d q = pose * x.cast<double>();
-  const double z = std::max(q.z(), 0.05);
-  return {static_cast<float>(camera.fx * q.x() / z + camera.cx),
-          static_cast<float>(camera.fy * q.y() / z + camera.cy)};
-}
-
-/// From the nearest point of the segment between a and b to p.
-cv::Point2f FromSegment(cv::Point2f p, cv::Point2f a, cv::Point2f b) {
-  const cv::Point2f along = b - a, offset = p - a;
-  const float length2 = along.dot(along);
-  const float share = length2 > 0 ? std::clamp(offset.dot(along) / length2, 0.f, 1.f) : 0.f;
-  return offset - share * along;
-}
-
-cv::Point2f Excess(const GridCamera& camera, const Rigid3d& pose, const TrackedCorner& corner) {
-  constexpr float kNear = 0.3f, kFar = 30.f;  // metres; nearer, nothing is in focus
-  const auto at = [&](float depth_m) {
-    return Project(camera, pose, Point(camera, corner.previous, depth_m));
-  };
-  if (corner.depth_m > 0) return corner.current - at(corner.depth_m);
-  return FromSegment(corner.current, at(kFar), at(kNear));
-}
-
 /// What the colour motion says of the depth motion: its own covariance, and that of the time between the
 /// images.
 Eigen::Matrix<double, 6, 6> DepthPriorInformation(const PoseFromCorners& color, const IcpOptions& options) {
@@ -66,20 +38,11 @@ bool FitsDepth(const GridCamera& cell_camera, const WorkingFrame& current, std::
   return at_pose.FitShare() > kAsWell * best_fit_share;
 }
 
-std::vector<CornerMatch> RestingMatches(const GridCamera& camera, std::span<const TrackedCorner> corners) {
-  std::vector<CornerMatch> matches;
-  for (const TrackedCorner& corner : corners)
-    if (corner.depth_m > 0 && !corner.was_moving)
-      matches.push_back(
-          {Point(camera, corner.previous, corner.depth_m), {corner.current.x, corner.current.y}});
-  return matches;
-}
-
-void MeasureExcess(const GridCamera& camera, const Rigid3d& pose, std::vector<TrackedCorner>* corners) {
-  for (TrackedCorner& corner : *corners) {
-    corner.excess = Excess(camera, pose, corner);
-    corner.residual_px = static_cast<float>(cv::norm(corner.excess));
-  }
+/// How far apart, at most, the two put a point of the room (m).
+double Distance(const Rigid3d& a, const Rigid3d& b) {
+  constexpr double kRoomM = 3;
+  const Rigid3d difference = a * Inverse(b);
+  return difference.translation.norm() + kRoomM * So3Log(difference.rotation).norm();
 }
 
 float NextInlierPx(std::span<const TrackedCorner> corners, const CameraMotionOptions& options) {
@@ -91,63 +54,44 @@ float NextInlierPx(std::span<const TrackedCorner> corners, const CameraMotionOpt
 
 }  // namespace
 
-std::optional<float> RestingResidualPx(std::span<const TrackedCorner> corners, double quantile,
-                                       int min_corners) {
-  std::vector<float> residuals;
-  for (const TrackedCorner& corner : corners)
-    if (corner.depth_m > 0 && !corner.was_moving) residuals.push_back(corner.residual_px);
-  if (residuals.empty() || static_cast<int>(residuals.size()) < min_corners) return {};
-  const auto rank = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(residuals.size()));
-  std::nth_element(residuals.begin(), residuals.begin() + rank, residuals.end());
-  return residuals[rank];
-}
-
 Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
   if (previous_interval_s_ <= 0) return {};
   const double ratio = std::clamp(interval_s / previous_interval_s_, 0.0, 3.0);
   return {So3Exp(ratio * So3Log(velocity_.rotation)), ratio * velocity_.translation};
 }
 
-std::vector<TrackedCorner> CameraMotionEstimator::Follow(const ReferenceView& previous,
-                                                         const WorkingFrame& current,
-                                                         const Rigid3d& predicted) const {
-  const WorkingFrame& last = *previous.frame;
-  const std::vector<cv::Point2f> positions = SpreadCorners(last.gray, {}, options_.corners);
-  std::vector<cv::Point2f> expected(positions.size());
-  std::vector<TrackedCorner> corners(positions.size());
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const int u = static_cast<int>(positions[i].x) / 2, v = static_cast<int>(positions[i].y) / 2;
-    TrackedCorner& corner = corners[i];
-    corner.previous = positions[i];
-    corner.depth_m = last.depth_m(v, u);
-    corner.was_moving = previous.moving(v, u) != 0;
-    // Without depth, as if far away: the flow is then that of the rotation.
-    expected[i] = Project(grids_.gray, predicted,
-                          Point(grids_.gray, positions[i], corner.depth_m > 0 ? corner.depth_m : 3.f));
-  }
-  const std::vector<FlowResult> flow =
-      TrackPatches(last.pyramid, current.pyramid, positions, expected, options_.flow);
-  std::vector<TrackedCorner> tracked;
-  for (size_t i = 0; i < flow.size(); ++i) {
-    if (!flow[i].ok) continue;
-    corners[i].current = flow[i].position;
-    tracked.push_back(corners[i]);
-  }
-  return tracked;
+/// Draws find the room where somebody who set off has bent what is carried, but where a thing fills the
+/// picture they prefer that: of the two poses the one that is nearer to the depth's own.
+PoseFromCorners CameraMotionEstimator::PoseSince(const ReferenceView& older,
+                                                 std::span<const TrackedCorner> corners,
+                                                 uint64_t seed) const {
+  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, corners);
+  const Rigid3d aligned = Inverse(older.reference_from_current);
+  const std::vector<Rigid3d> candidates{Inverse(older.color_reference_from_current), aligned};
+  PoseFromCornersOptions without_draws = options_.pose;
+  without_draws.num_draws = 0;
+  Rng rng(seed, 1, 0xE60);
+  const PoseFromCorners refined = EstimatePose(grids_.gray, matches, candidates, without_draws, &rng);
+  const PoseFromCorners drawn = EstimatePose(grids_.gray, matches, candidates, options_.pose, &rng);
+  const auto from_depth = [&](const PoseFromCorners& pose) {
+    return Distance(pose.current_from_previous, aligned);
+  };
+  return drawn.ok && from_depth(drawn) < from_depth(refined) ? drawn : refined;
 }
 
-std::vector<TrackedCorner> CameraMotionEstimator::FollowFrom(const ReferenceView& reference,
-                                                             const WorkingFrame& current) const {
-  const Rigid3d aligned = Inverse(reference.reference_from_current);
-  std::vector<TrackedCorner> corners = Follow(reference, current, aligned);
-  PoseFromCornersOptions refine = options_.pose;
-  refine.num_draws = 0;  // the alignment is as good as any draw
-  Rng rng(0);
-  const PoseFromCorners pose =
-      EstimatePose(grids_.gray, RestingMatches(grids_.gray, corners), {aligned}, refine, &rng);
+OlderCorners CameraMotionEstimator::FollowFrom(const ReferenceView& older, const ReferenceView& last,
+                                               const WorkingFrame& current, uint64_t seed) const {
+  const Rigid3d carried = Inverse(older.color_reference_from_current);
+  std::vector<TrackedCorner> corners =
+      FollowCorners(grids_, older, current, carried, Baseline::kLong, options_);
+  const cv::Rect inside({0, 0}, last.moving.size());
+  for (TrackedCorner& corner : corners)
+    if (const cv::Point cell = CellOf(corner); inside.contains(cell) && last.moving(cell) != 0)
+      corner.was_moving = true;
+  const PoseFromCorners pose = PoseSince(older, corners, seed);
   if (!pose.ok) return {};
   MeasureExcess(grids_.gray, pose.current_from_previous, &corners);
-  return corners;
+  return {std::move(corners), pose.current_from_previous};
 }
 
 PoseFromCorners CameraMotionEstimator::PoseOf(std::span<const TrackedCorner> corners,
@@ -168,7 +112,7 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   const double interval_s = current.timestamp_s - previous.frame->timestamp_s;
   const Rigid3d predicted = Predict(interval_s);
   CameraMotion motion;
-  motion.corners = Follow(previous, current, predicted);
+  motion.corners = FollowCorners(grids_, previous, current, predicted, Baseline::kShort, options_);
 
   const PoseFromCorners from_corners = PoseOf(motion.corners, predicted, seed);
   motion.num_inliers = from_corners.num_inliers;

@@ -33,6 +33,30 @@ bool Sample(const cv::Mat1f& image, float x, float y, float* out) {
   return true;
 }
 
+/// The same of a square whose rows and columns lie along the columns of a matrix, about its centre.
+template <int size>
+bool SampleTurned(const cv::Mat1f& image, cv::Point2f centre, const cv::Matx22f& axes, float* out) {
+  constexpr float kMiddle = 0.5f * (size - 1);
+  const cv::Point2f reach(kMiddle * (std::abs(axes(0, 0)) + std::abs(axes(0, 1))),
+                          kMiddle * (std::abs(axes(1, 0)) + std::abs(axes(1, 1))));
+  const cv::Point2f first = centre - reach, last = centre + reach;
+  if (!(first.x >= 0 && first.y >= 0 && last.x < static_cast<float>(image.cols - 1) &&
+        last.y < static_cast<float>(image.rows - 1)))
+    return false;
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i) {
+      const float di = static_cast<float>(i) - kMiddle, dj = static_cast<float>(j) - kMiddle;
+      const float x = centre.x + axes(0, 0) * di + axes(0, 1) * dj;
+      const float y = centre.y + axes(1, 0) * di + axes(1, 1) * dj;
+      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);  // not negative
+      const float ax = x - static_cast<float>(x0), ay = y - static_cast<float>(y0);
+      const float *top = image[y0] + x0, *bottom = image[y0 + 1] + x0;
+      out[j * size + i] =
+          (1 - ay) * (top[0] + ax * (top[1] - top[0])) + ay * (bottom[0] + ax * (bottom[1] - bottom[0]));
+    }
+  return true;
+}
+
 /// Sum of term(pixel) over a patch, in a lane a column: the compiler may add lanes side by side, but may not
 /// change the order of additions by itself.
 template <class Term>
@@ -48,10 +72,13 @@ float Dot(const float (&a)[kPixels], const float (&b)[kPixels]) {
 }
 
 /// The template at a position: values, slopes by central differences, and the inverse of their tensor.
-bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, float min_texture, Patch* patch) {
+bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, const std::optional<cv::Matx22f>& axes,
+               float min_texture, Patch* patch) {
   constexpr int kWide = kSize + 2;
   float wide[kWide * kWide];
-  if (!Sample<kWide, kWide>(image, centre.x - kHalf - 1, centre.y - kHalf - 1, wide)) return false;
+  if (axes ? !SampleTurned<kWide>(image, centre, *axes, wide)
+           : !Sample<kWide, kWide>(image, centre.x - kHalf - 1, centre.y - kHalf - 1, wide))
+    return false;
   for (int j = 0; j < kSize; ++j) {
     const float* row = wide + (j + 1) * kWide + 1;
     for (int i = 0; i < kSize; ++i) {
@@ -89,22 +116,24 @@ bool Refine(const Patch& patch, const cv::Mat1f& image, const FlowOptions& optio
   return true;
 }
 
-FlowResult TrackPatch(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to,
-                      cv::Point2f position, cv::Point2f predicted, const FlowOptions& options) {
+FlowResult TrackPatch(const std::vector<cv::Mat1f>& first, const std::vector<cv::Mat1f>& second,
+                      const FlowQuery& query, const FlowOptions& options) {
   FlowResult result;
-  cv::Point2f flow = predicted - position;
+  cv::Point2f flow = query.predicted - query.position;
   Patch patch;
-  for (int level = static_cast<int>(from.size()) - 1; level >= 0; --level) {
+  for (int level = static_cast<int>(first.size()) - 1; level >= 0; --level) {
     // Halving by pyrDown keeps the centre of pixel (2 i, 2 j) at (i, j).
     const float scale = 1 / static_cast<float>(1 << level);
-    const cv::Point2f here = position * scale;
+    const cv::Point2f here = query.position * scale;
     cv::Point2f there = here + flow * scale;
-    const bool ok = MakePatch(from[level], here, options.min_texture, &patch) &&
-                    Refine(patch, to[level], options, &there, &result.difference_grey);
+    // Coarse levels only lead the way: there it need not be turned.
+    const auto axes = level == 0 ? query.first_from_second : std::nullopt;
+    const bool ok = MakePatch(first[level], here, axes, options.min_texture, &patch) &&
+                    Refine(patch, second[level], options, &there, &result.difference_grey);
     if (ok) flow = (there - here) / scale;
     if (!ok && level == 0) return result;  // coarser levels see less of the rim; the finest must succeed
   }
-  result.position = position + flow;
+  result.position = query.position + flow;
   result.ok = result.difference_grey < options.max_difference_grey;
   return result;
 }
@@ -143,12 +172,12 @@ std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& a
   return chosen;
 }
 
-std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to,
-                                     const std::vector<cv::Point2f>& positions,
-                                     const std::vector<cv::Point2f>& predicted, const FlowOptions& options) {
-  std::vector<FlowResult> results(positions.size());
-  for (size_t i = 0; i < positions.size(); ++i)
-    results[i] = TrackPatch(from, to, positions[i], predicted[i], options);
+std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& first,
+                                     const std::vector<cv::Mat1f>& second, std::span<const FlowQuery> queries,
+                                     const FlowOptions& options) {
+  std::vector<FlowResult> results;
+  results.reserve(queries.size());
+  for (const FlowQuery& query : queries) results.push_back(TrackPatch(first, second, query, options));
   return results;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "orbslam/dynamic/dynamic_detector_options.h"
@@ -19,10 +21,18 @@ struct FlowResult {
   bool ok = false;
 };
 
+/// A patch to be found again.
+struct FlowQuery {
+  cv::Point2f position;   // in the first image
+  cv::Point2f predicted;  // in the second
+  /// Offsets within the patch in the second image -> in the first: how it turned and grew; empty: it did not.
+  std::optional<cv::Matx22f> first_from_second;
+};
+
 /// Where patches of one pyramid are in another: iterative Lucas-Kanade from coarse to fine on patches of 12 x
 /// 12 px (Bouguet 2001), started from predicted. Pyramids: CV_32F, each level half of the last.
-std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& from, const std::vector<cv::Mat1f>& to,
-                                     const std::vector<cv::Point2f>& positions,
-                                     const std::vector<cv::Point2f>& predicted, const FlowOptions& options);
+std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& first,
+                                     const std::vector<cv::Mat1f>& second, std::span<const FlowQuery> queries,
+                                     const FlowOptions& options);
 
 }  // namespace orbslam

@@ -81,20 +81,23 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
   judgement.motion = motion_estimator_.Estimate(history_, frame, seed);
   judgement.is_trusted = judgement.motion.failure.empty();
   untrusted_frames_ = judgement.is_trusted ? 0 : untrusted_frames_ + 1;
-  history_.Advance(Inverse(judgement.motion.depth_current_from_previous));
+  history_.Advance(Inverse(judgement.motion.depth_current_from_previous),
+                   Inverse(judgement.motion.color_current_from_previous));
   history_.AlignKeyframes(frame, judgement.motion.is_depth_misled);
-  judgement.flows = JudgeFlow(frame, judgement);
+  judgement.flows = JudgeFlow(frame, judgement, seed);
   judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.corners);
   judgement.carried = CarryOver(log_odds_, judgement.shift);
   return judgement;
 }
 
-std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, const Judgement& judgement) const {
+std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, const Judgement& judgement, uint64_t seed) {
   std::vector<Flow> flows{MakeFlow(judgement.motion.corners, options_.corner_gate)};
   const ReferenceView* older = history_.KeyframeOfAge(options_.slow_flow.age_frames);
   if (!options_.slow_flow.use_slow_flow || !judgement.is_trusted || older == nullptr) return flows;
-  Flow slow = MakeFlow(motion_estimator_.FollowFrom(*older, frame), options_.slow_flow.gate);
-  if (slow.gate.IsSharp()) flows.push_back(std::move(slow));
+  OlderCorners slow = motion_estimator_.FollowFrom(*older, *history_.Back(1), frame, seed);
+  if (slow.current_from_older) history_.CorrectColor(*older, Inverse(*slow.current_from_older));
+  Flow flow = MakeFlow(std::move(slow.corners), options_.slow_flow.gate);
+  if (flow.gate.IsSharp()) flows.push_back(std::move(flow));
   return flows;
 }
 

@@ -46,7 +46,7 @@ DynamicMask PaperMode::Process(const RgbdImage& image) {
     const CameraMotion motion = motion_estimator_.Estimate(history_, *frame, image.id.value);
     current_from_previous = motion.depth_current_from_previous;
     result.fail_open_reason = motion.failure;
-    history_.Advance(Inverse(current_from_previous));
+    history_.Advance(Inverse(current_from_previous), Inverse(motion.color_current_from_previous));
   }
   if (!result.fail_open_reason.empty()) detector_.Reset();
   const PaperResult found = detector_.Process(MakeCloud(image), current_from_previous);

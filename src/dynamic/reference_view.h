@@ -25,9 +25,10 @@ cv::Mat1f FillHoles(const cv::Mat1f& depth_m);
 struct ReferenceView {
   std::shared_ptr<const WorkingFrame> frame;
   DepthEnvelope envelope;
-  cv::Mat1f filled_depth_m;  // what has no depth, a monitor say, still looks like something
-  cv::Mat1b moving;          // cells that were masked then
-  Rigid3d reference_from_current;
+  cv::Mat1f filled_depth_m;              // what has no depth, a monitor say, still looks like something
+  cv::Mat1b moving;                      // cells that were masked then
+  Rigid3d reference_from_current;        // of the depth images
+  Rigid3d color_reference_from_current;  // of the colour images
   int age_frames = 0;
   bool is_aligned = true;                       // its own alignment with the present frame succeeded
   int frames_unaligned = 0;                     // in a row, until now

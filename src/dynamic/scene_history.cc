@@ -10,12 +10,21 @@ const ReferenceView* SceneHistory::Back(int num_back) const {
   return index < recent_.size() ? &recent_[index] : nullptr;
 }
 
-void SceneHistory::Advance(const Rigid3d& previous_from_current) {
+void SceneHistory::Advance(const Rigid3d& depth_previous_from_current,
+                           const Rigid3d& color_previous_from_current) {
   for (auto* views : {&recent_, &keyframes_})
     for (ReferenceView& view : *views) {
-      view.reference_from_current = view.reference_from_current * previous_from_current;
+      view.reference_from_current = view.reference_from_current * depth_previous_from_current;
+      view.color_reference_from_current = view.color_reference_from_current * color_previous_from_current;
       ++view.age_frames;
     }
+}
+
+void SceneHistory::CorrectColor(const ReferenceView& view, const Rigid3d& color_reference_from_current) {
+  const Rigid3d correction = Inverse(view.color_reference_from_current) * color_reference_from_current;
+  for (auto* views : {&recent_, &keyframes_})
+    for (ReferenceView& other : *views)
+      other.color_reference_from_current = other.color_reference_from_current * correction;
 }
 
 void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_misled) {

@@ -20,7 +20,9 @@ class SceneHistory {
   /// The frame num_back before the one that is being processed; null: none.
   const ReferenceView* Back(int num_back) const;
   /// Carries all poses over to the frame now processed.
-  void Advance(const Rigid3d& previous_from_current);
+  void Advance(const Rigid3d& depth_previous_from_current, const Rigid3d& color_previous_from_current);
+  /// Puts right what a view's colour pose is found to be, and the others' by as much.
+  void CorrectColor(const ReferenceView& view, const Rigid3d& color_reference_from_current);
   /// Aligns each keyframe with the present frame; those that do not fit, or no longer overlap, are forgotten.
   /// is_depth_misled: something moves that depth takes for the room; its pull is made weak for a while.
   void AlignKeyframes(const WorkingFrame& current, bool is_depth_misled);

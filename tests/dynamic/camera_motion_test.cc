@@ -26,7 +26,8 @@ Pair Estimate(const std::function<std::vector<RoomBox>(uint32_t)>& movers) {
   SceneHistory history(reducer.grids().cell, {});
   CameraMotionEstimator estimator(reducer.grids(), {});
   for (uint32_t frame = 0; frame < kLast; ++frame) {
-    if (frame > 0) history.Advance(Inverse(Sway(frame - 1)) * Sway(frame));
+    const Rigid3d motion = Inverse(Sway(frame == 0 ? 0 : frame - 1)) * Sway(frame);
+    if (frame > 0) history.Advance(motion, motion);
     auto working =
         std::make_shared<const WorkingFrame>(reducer.Reduce(room.Render(frame, Sway(frame), movers(frame))));
     history.Add(working, cv::Mat1b(working->depth_m.size(), uint8_t{0}), nullptr);
@@ -55,26 +56,6 @@ TEST(CameraMotion, IsRecoveredThoughSomethingNearMoves) {
   int num_moving = 0;
   for (const TrackedCorner& corner : pair.motion.corners) num_moving += corner.residual_px > 3;
   EXPECT_GT(num_moving, 10);
-}
-
-TEST(CornerFlow, FollowsAShiftedImage) {
-  const RenderedRoom room;
-  const FrameReducer reducer(room.camera);
-  const WorkingFrame frame = reducer.Reduce(room.Render(0, {}, {}));
-  std::vector<cv::Mat1f> shifted;
-  for (int level = 0; level < 3; ++level) {  // to the left by 4, 2 and 1 px
-    cv::Mat1f image = frame.pyramid[level].clone();
-    const int shift = 4 >> level;
-    frame.pyramid[level].colRange(shift, image.cols).copyTo(image.colRange(0, image.cols - shift));
-    shifted.push_back(image);
-  }
-  const auto corners = SpreadCorners(frame.gray, {}, {});
-  ASSERT_GT(corners.size(), 100u);
-  int num_right = 0;
-  const auto flow = TrackPatches(frame.pyramid, shifted, corners, corners, {});
-  for (size_t i = 0; i < flow.size(); ++i)
-    num_right += flow[i].ok && cv::norm(flow[i].position - corners[i] - cv::Point2f(-4, 0)) < 0.1;
-  EXPECT_GT(num_right, 0.8 * static_cast<double>(corners.size()));
 }
 
 TEST(Segmenter, SplitsAtDepthEdgesAndLeavesOutWhatIsExcluded) {

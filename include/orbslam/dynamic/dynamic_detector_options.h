@@ -101,11 +101,13 @@ struct CornerGateOptions {
   int min_resting = 20;       // corners, for the quantile; with fewer the gate is the largest
 };
 
-/// Corners followed from a keyframe: who sways or breathes moves too little from one frame to the next.
+/// Corners followed from a keyframe: who sways, breathes or sets off moves too little from one frame to the
+/// next.
 struct SlowFlowOptions {
   bool use_slow_flow = true;
   int age_frames = 15;  // of the keyframe, half a second: who sits sways by 1 cm in it, 2 grey px at 1.5 m
-  CornerGateOptions gate{.multiple = 7.f};  // five sigma: half a second averages blur
+  // Five sigma, for half a second averages blur; but in it a rolling shutter bends the picture further.
+  CornerGateOptions gate{.multiple = 7.f, .max_sharp_px = 0.9f};
 };
 
 /// Surfaces that slide within themselves: what depth alone would confirm as static, but corners see moving.
