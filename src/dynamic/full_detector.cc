@@ -50,6 +50,8 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   Report(*frame, judgement, &result);
   log_odds_ = judgement.log_odds;
   history_.Add(frame, judgement.moving, window.current_cloud());
+  if (options_.hindsight.use_hindsight && judgement.is_trusted && judgement.flows.front().gate.IsSharp())
+    history_.LookBack(options_.free_space, options_.segmentation);
   return result;
 }
 

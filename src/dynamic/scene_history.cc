@@ -2,6 +2,9 @@
 #include "scene_history.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "hindsight.h"
 
 namespace orbslam {
 
@@ -79,14 +82,35 @@ void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1
   if (options_.max_keyframes > 0 && ++frames_since_keyframe_ >= options_.keyframe_interval) {
     keyframes_.push_front(std::move(view));
     keyframes_.front().cloud = nullptr;
-    if (static_cast<int>(keyframes_.size()) > options_.max_keyframes) keyframes_.pop_back();
+    if (static_cast<int>(keyframes_.size()) > options_.max_keyframes) ThinKeyframes();
     frames_since_keyframe_ = 0;
   }
+}
+
+void SceneHistory::LookBack(const FreeSpaceOptions& free_space, const SegmentationOptions& segmentation) {
+  if (keyframes_.empty()) return;
+  looked_back_at_ = (looked_back_at_ + 1) % keyframes_.size();
+  ReferenceView& past = keyframes_[looked_back_at_];
+  if (!past.is_aligned || past.age_frames == 0) return;
+  past.moving = past.moving | GoneSince(camera_, past, recent_.front(), free_space, segmentation);
+}
+
+void SceneHistory::ThinKeyframes() {
+  size_t dropped = keyframes_.size() - 1;
+  if (keyframes_.back().age_frames < options_.max_age_frames) {
+    double closest = std::numeric_limits<double>::infinity();
+    for (size_t i = 1; i + 1 < keyframes_.size(); ++i) {
+      const double ratio = (keyframes_[i + 1].age_frames + 1.0) / (keyframes_[i - 1].age_frames + 1.0);
+      if (ratio < closest) closest = ratio, dropped = i;
+    }
+  }
+  keyframes_.erase(keyframes_.begin() + static_cast<std::ptrdiff_t>(dropped));
 }
 
 void SceneHistory::Clear() {
   recent_.clear(), keyframes_.clear();
   frames_since_keyframe_ = 1 << 20;
+  looked_back_at_ = 0;
 }
 
 }  // namespace orbslam

@@ -33,15 +33,22 @@ class SceneHistory {
   /// moving: its cells that were masked. cloud: for the motion histogram, may be null.
   void Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving,
            std::shared_ptr<const HistogramCloud> cloud);
+  /// Marks in one of the keyframes, each in its turn, what the last frame added shows to have gone since.
+  void LookBack(const FreeSpaceOptions& free_space, const SegmentationOptions& segmentation);
   void Clear();
 
  private:
+  /// Drops one: the oldest if it is too old, else that whose neighbours' ages are most alike, so that ages
+  /// come to grow geometrically.
+  void ThinKeyframes();
+
   GridCamera camera_;
   ReferenceOptions options_;
   std::deque<ReferenceView> recent_;  // youngest first
   std::deque<ReferenceView> keyframes_;
   int frames_since_misled_ = 1 << 20;
   int frames_since_keyframe_ = 1 << 20;
+  size_t looked_back_at_ = 0;  // index of a keyframe
 };
 
 }  // namespace orbslam

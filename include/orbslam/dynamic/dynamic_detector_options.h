@@ -69,13 +69,15 @@ struct CameraMotionOptions {
 struct ReferenceOptions {
   int num_recent = 8;                  // kept one by one: the histogram's rows
   int keyframe_interval = 10;          // frames: a person walks half a metre, more than his depth
-  int max_keyframes = 8;               // 2.7 s: how long one who stands still stays masked
+  int max_keyframes = 8;               // their ages grow geometrically, ...
+  int max_age_frames = 300;            // ... up to 10 s: how long one who stands still stays masked
   double prior_translation_m = 0.002;  // sigma of a carried pose before its own alignment: of one frame,
   double prior_rotation_rad = 0.002;   // since it was aligned to the last
   int stride = 4, iterations = 3;      // of that alignment
   double doubtful_share = 0.1;         // of its points count as independent, for as long as ...
   int doubtful_frames = 30;            // ... after depth was not believed: a person walks past in a second
-  double min_fit_share = 0.5;          // of the paired points within 3 sigma; else it is not asked
+  double min_fit_share = 0.6;          // of the paired points within 3 sigma; else it is not asked. With the
+                                       // right pose 0.7 and more do, with any other a third
   int min_pairs = 60;                  // ten for each unknown
   int max_unaligned = 30;              // frames after which it is forgotten: 1 s, someone walks past
 };
@@ -88,6 +90,11 @@ struct FreeSpaceOptions {
   float drift_m = 0.0004f;           // growth of the margin a frame of age: what the alignment leaves
   float min_votes = 0.9f;            // free less half of the static votes
   int min_suspicious_neighbors = 4;  // of the 3 x 3 cells: noise and edges are thinner
+};
+
+/// What later frames show of earlier ones: what has gone since moved, though nobody knew then.
+struct HindsightOptions {
+  bool use_hindsight = true;
 };
 
 /// From which residual on a corner moves: as many times what those have that rested in the last mask.
@@ -194,6 +201,7 @@ struct DynamicDetectorOptions {
   CameraMotionOptions camera_motion;
   ReferenceOptions references;
   FreeSpaceOptions free_space;
+  HindsightOptions hindsight;
   CornerGateOptions corner_gate;
   SlowFlowOptions slow_flow;
   SlidingOptions sliding;
