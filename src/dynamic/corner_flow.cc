@@ -6,6 +6,8 @@
 #include <numeric>
 #include <opencv2/features2d.hpp>
 
+#include "wide_vectors.h"
+
 namespace orbslam {
 namespace {
 
@@ -138,6 +140,13 @@ FlowResult TrackPatch(const std::vector<cv::Mat1f>& first, const std::vector<cv:
   return result;
 }
 
+/// The same to the last bit, with all it calls compiled for AVX2.
+ORBSLAM_WIDE_VECTORS FlowResult TrackPatchWide(const std::vector<cv::Mat1f>& first,
+                                               const std::vector<cv::Mat1f>& second, const FlowQuery& query,
+                                               const FlowOptions& options) {
+  return TrackPatch(first, second, query, options);
+}
+
 bool IsAllowed(const cv::Mat1b& allowed, const cv::Mat1b& gray, const cv::KeyPoint& corner) {
   if (allowed.empty()) return true;
   const int step = gray.cols / allowed.cols;
@@ -175,9 +184,10 @@ std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& a
 std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& first,
                                      const std::vector<cv::Mat1f>& second, std::span<const FlowQuery> queries,
                                      const FlowOptions& options) {
+  const auto track = HasWideVectors() ? TrackPatchWide : TrackPatch;
   std::vector<FlowResult> results;
   results.reserve(queries.size());
-  for (const FlowQuery& query : queries) results.push_back(TrackPatch(first, second, query, options));
+  for (const FlowQuery& query : queries) results.push_back(track(first, second, query, options));
   return results;
 }
 

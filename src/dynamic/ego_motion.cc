@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "orbslam/geometry/so3.h"
 
@@ -65,13 +66,15 @@ Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matche
   return Rigid3d{So3Exp(step.head<3>()), step.tail<3>()} * pose;
 }
 
-/// Truncated sum of squared errors (MSAC, Torr and Zisserman 2000).
+/// Truncated sum of squared errors (MSAC, Torr and Zisserman 2000), or some sum above limit.
 float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, const Rigid3d& pose,
-           float inlier_px) {
+           float inlier_px, float limit = std::numeric_limits<float>::infinity()) {
   const Motion motion = ToMotion(pose);
   float sum = 0;
-  for (const CornerMatch& match : matches)
+  for (const CornerMatch& match : matches) {
     sum += std::min(SquaredError(camera, motion, match), inlier_px * inlier_px);
+    if (sum > limit) break;
+  }
   return sum;
 }
 
@@ -81,7 +84,7 @@ Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>&
   Rigid3d best = candidates.front();
   float best_cost = Cost(camera, matches, best, options.inlier_px);
   const auto consider = [&](const Rigid3d& pose) {
-    const float cost = Cost(camera, matches, pose, options.inlier_px);
+    const float cost = Cost(camera, matches, pose, options.inlier_px, best_cost);
     if (cost < best_cost) best = pose, best_cost = cost;
   };
   for (size_t i = 1; i < candidates.size(); ++i) consider(candidates[i]);

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 
-namespace orbslam {
+#include "wide_vectors.h"
 
-void ProjectRow(GridCamera camera, const Rigid3d& other_from_this, int v, const float* depth_m,
-                ProjectedRow* row) {
+namespace orbslam {
+namespace {
+
+void ProjectCells(GridCamera camera, const Rigid3d& other_from_this, int v, const float* depth_m,
+                  ProjectedRow* row) {
   const Eigen::Matrix3f r = other_from_this.RotationMatrix().cast<float>();
   const Eigen::Vector3f t = other_from_this.translation.cast<float>();
   const float b = (static_cast<float>(v) - camera.cy) / camera.fy, inverse_fx = 1 / camera.fx;
@@ -30,6 +33,18 @@ void ProjectRow(GridCamera camera, const Rigid3d& other_from_this, int v, const 
     out[u] = qz;
     index[u] = inside ? at : -1;
   }
+}
+
+ORBSLAM_WIDE_VECTORS void ProjectCellsWide(GridCamera camera, const Rigid3d& other_from_this, int v,
+                                           const float* depth_m, ProjectedRow* row) {
+  ProjectCells(camera, other_from_this, v, depth_m, row);
+}
+
+}  // namespace
+
+void ProjectRow(GridCamera camera, const Rigid3d& other_from_this, int v, const float* depth_m,
+                ProjectedRow* row) {
+  (HasWideVectors() ? ProjectCellsWide : ProjectCells)(camera, other_from_this, v, depth_m, row);
 }
 
 }  // namespace orbslam
