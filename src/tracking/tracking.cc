@@ -52,6 +52,7 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
   }
   report->moving = AskForMask(image.timestamp_s, mask_of_frame);
   OrbFeatures raw = Describe(report->moving.mask);
+  NoteDoubt(report->moving, raw.num_dropped, image.timestamp_s);
   is_mask_unused_ =
       raw.num_dropped > 0 && static_cast<int>(raw.keypoints.size()) < options_.min_unmasked_keypoints;
   if (is_mask_unused_) {
@@ -68,6 +69,13 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
   std::vector<MapPointId> points(features.size());
   return {image.id, image.timestamp_s, std::make_shared<const FrameFeatures>(std::move(features)), Rigid3d(),
           std::move(points)};
+}
+
+/// Where something moved a moment ago, and nobody can tell now what does, it still may for a while.
+void Tracking::NoteDoubt(const DynamicMask& moving, int num_dropped, double timestamp_s) {
+  if (num_dropped > 0) last_masked_s_ = timestamp_s;
+  if (!moving.fail_open_reason.empty() && timestamp_s - last_masked_s_ < options_.max_doubt_s)
+    doubt_ends_s_ = timestamp_s + options_.max_doubt_s;
 }
 
 OrbFeatures Tracking::Describe(const cv::Mat& mask) {
@@ -106,7 +114,9 @@ void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report
   if (was_tracking) UpdateMotion(rolled, frame, report);
   if (!makes_keyframes_) return;
   EraseCondemnedPoints();
-  if (!is_mask_unused_ && WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
+  if (!is_mask_unused_ && frame->timestamp_s > doubt_ends_s_ &&
+      WantsKeyFrame(*frame, report->num_matches, mapper))
+    InsertKeyFrame(frame, report);
 }
 
 /// With a rolling shutter the motion also says better than the prediction did where the keypoints belong, and

@@ -80,6 +80,11 @@ TEST(DynamicDetector, KeepsWhoPausesMasked) {
   EXPECT_GT(result.mean.recall, 0.8);
 }
 
+TEST(DynamicDetector, KeepsWhoPausesForSecondsMasked) {
+  const WatchResult result = Watch([](double t) { return AcrossTheAxis(std::min(t, 1.0)); }, 170, 150);
+  EXPECT_GT(result.mean.recall, 0.8);
+}
+
 TEST(DynamicDetector, MasksWhoEntersTheView) {
   const WatchResult result = Watch(
       [](double t) {

@@ -41,10 +41,11 @@ class MaskedTrackingTest : public testing::Test {
     mask(moving) = 255;
     return mask;
   }
-  FrameReport Show(int board_u, const cv::Mat& mask) {
+  FrameReport Show(int board_u, const cv::Mat& mask, const std::string& fail_open_reason = {}) {
     return tracking_.Process(Image(board_u), {}, [&](const Rigid3d&) {
       DynamicMask result;
       result.mask = mask;
+      result.fail_open_reason = fail_open_reason;
       return result;
     });
   }
@@ -105,6 +106,22 @@ TEST_F(MaskedTrackingTest, AMaskThatLeavesTooLittleIsNotUsedAndSaysSo) {
     EXPECT_EQ(report.num_dropped_keypoints, 0);
     EXPECT_FALSE(report.new_keyframe);
   }
+}
+
+/// Three quarters of the wall come into view at once.
+TEST_F(MaskedTrackingTest, WhereWhatMovedMayBeUnseenNoKeyFrameIsMadeForAWhile) {
+  const cv::Mat most = Mask({size_.width / 4, 0, 3 * size_.width / 4, size_.height});
+  for (int i = 0; i < 5; ++i) Show(100, most);
+  for (int i = 0; i < 30; ++i) EXPECT_FALSE(Show(100, {}, "nobody can tell").new_keyframe);
+  int num_waited = 0;
+  while (num_waited < 100 && !Show(100, {}, "nobody can tell").new_keyframe) ++num_waited;
+  EXPECT_LE(num_waited, 35) << "it must not go on for ever";
+}
+
+TEST_F(MaskedTrackingTest, WhereTheDetectorKnowsItIsMadeAtOnce) {
+  const cv::Mat most = Mask({size_.width / 4, 0, 3 * size_.width / 4, size_.height});
+  for (int i = 0; i < 5; ++i) Show(100, most);
+  EXPECT_TRUE(Show(100, {}).new_keyframe);
 }
 
 TEST_F(MaskedTrackingTest, TheMaskIsAskedForOnceAFrameWithThePredictedMotion) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "orbslam/features/orb_extractor.h"
@@ -41,6 +42,7 @@ class Tracking {
  private:
   Frame MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_frame, FrameReport* report);
   OrbFeatures Describe(const cv::Mat& mask);
+  void NoteDoubt(const DynamicMask& moving, int num_dropped, double timestamp_s);
   DynamicMask AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame);
   void Initialize(Frame* frame, FrameReport* report);
   void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
@@ -73,6 +75,8 @@ class Tracking {
   bool makes_keyframes_ = true;
   MovingRegion moving_;          // of the present frame
   bool is_mask_unused_ = false;  // the present frame may show moving objects as if they were static
+  double last_masked_s_ = -std::numeric_limits<double>::infinity();  // when keypoints were last dropped
+  double doubt_ends_s_ = last_masked_s_;  // until then what moves may look static: no keyframes
   uint64_t epoch_ = 0;           // of the map, when the present frame was begun
   std::optional<Frame> last_;    // the last frame that was tracked
   KeyFrameId reference_;         // the keyframe that shares most points with it
