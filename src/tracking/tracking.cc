@@ -74,7 +74,8 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
 /// Where something moved a moment ago, and nobody can tell now what does, it still may for a while.
 void Tracking::NoteDoubt(const DynamicMask& moving, int num_dropped, double timestamp_s) {
   if (num_dropped > 0) last_masked_s_ = timestamp_s;
-  if (!moving.fail_open_reason.empty() && timestamp_s - last_masked_s_ < options_.max_doubt_s)
+  const bool cannot_tell = moving.mask.empty() && !moving.fail_open_reason.empty();
+  if (cannot_tell && timestamp_s - last_masked_s_ < options_.max_doubt_s)
     doubt_ends_s_ = timestamp_s + options_.max_doubt_s;
 }
 

@@ -124,6 +124,12 @@ TEST_F(MaskedTrackingTest, WhereTheDetectorKnowsItIsMadeAtOnce) {
   EXPECT_TRUE(Show(100, {}).new_keyframe);
 }
 
+TEST_F(MaskedTrackingTest, AMaskThatIsLateButThereIsNoDoubt) {
+  const cv::Mat most = Mask({size_.width / 4, 0, 3 * size_.width / 4, size_.height});
+  for (int i = 0; i < 5; ++i) Show(100, most);
+  EXPECT_TRUE(Show(100, Mask(BoardAt(100)), "the mask is late").new_keyframe);
+}
+
 TEST_F(MaskedTrackingTest, TheMaskIsAskedForOnceAFrameWithThePredictedMotion) {
   int num_asked = 0;
   for (int i = 0; i < 5; ++i) {
