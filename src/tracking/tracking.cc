@@ -52,7 +52,7 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
   }
   report->moving = AskForMask(image.timestamp_s, mask_of_frame);
   OrbFeatures raw = Describe(report->moving.mask);
-  NoteDoubt(report->moving, raw.num_dropped, image.timestamp_s);
+  NoteDoubt(report->moving, image.timestamp_s);
   is_mask_unused_ =
       raw.num_dropped > 0 && static_cast<int>(raw.keypoints.size()) < options_.min_unmasked_keypoints;
   if (is_mask_unused_) {
@@ -71,11 +71,12 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
           std::move(points)};
 }
 
-/// Where something moved a moment ago, and nobody can tell now what does, it still may for a while.
-void Tracking::NoteDoubt(const DynamicMask& moving, int num_dropped, double timestamp_s) {
-  if (num_dropped > 0) last_masked_s_ = timestamp_s;
+/// Where something filled the picture a moment ago, and nobody can tell now what moves, it still may for a
+/// while.
+void Tracking::NoteDoubt(const DynamicMask& moving, double timestamp_s) {
+  if (moving.MaskedShare() > options_.doubtful_share) last_filled_s_ = timestamp_s;
   const bool cannot_tell = moving.mask.empty() && !moving.fail_open_reason.empty();
-  if (cannot_tell && timestamp_s - last_masked_s_ < options_.max_doubt_s)
+  if (cannot_tell && timestamp_s - last_filled_s_ < options_.max_doubt_s)
     doubt_ends_s_ = timestamp_s + options_.max_doubt_s;
 }
 

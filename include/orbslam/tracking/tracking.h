@@ -42,7 +42,7 @@ class Tracking {
  private:
   Frame MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_frame, FrameReport* report);
   OrbFeatures Describe(const cv::Mat& mask);
-  void NoteDoubt(const DynamicMask& moving, int num_dropped, double timestamp_s);
+  void NoteDoubt(const DynamicMask& moving, double timestamp_s);
   DynamicMask AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame);
   void Initialize(Frame* frame, FrameReport* report);
   void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
@@ -75,8 +75,9 @@ class Tracking {
   bool makes_keyframes_ = true;
   MovingRegion moving_;          // of the present frame
   bool is_mask_unused_ = false;  // the present frame may show moving objects as if they were static
-  double last_masked_s_ = -std::numeric_limits<double>::infinity();  // when keypoints were last dropped
-  double doubt_ends_s_ = last_masked_s_;  // until then what moves may look static: no keyframes
+  double last_filled_s_ =
+      -std::numeric_limits<double>::infinity();  // when moving things last filled the picture
+  double doubt_ends_s_ = last_filled_s_;         // until then they may look static: no keyframes
   uint64_t epoch_ = 0;           // of the map, when the present frame was begun
   std::optional<Frame> last_;    // the last frame that was tracked
   KeyFrameId reference_;         // the keyframe that shares most points with it

@@ -22,7 +22,8 @@ struct TrackingOptions {
   double max_ratio_reference = 0.7;
   int min_unmasked_keypoints = 50;  // fewer off a mask: it is not used. What min_local_inliers needs, with a
                                     // margin for keypoints that are no map points
-  double max_doubt_s = 1;           // for which what moved may still be there, unseen by the detector
+  double doubtful_share = 0.5;      // of the image, masked: most of what is seen then moves, and may ...
+  double max_doubt_s = 1;           // ... still be there so long after, unseen by the detector
   double min_view_cos = 0.5;  // 60 degrees from a point's mean viewing direction
 };
 
@@ -33,8 +34,9 @@ struct KeyFramePolicyOptions {
   double min_tracked_ratio = 0.75;
   // ... or of all its points. Few of a new keyframe's points have a second observer yet, and were those all
   // that count, the camera would leave its points behind before it is noticed. ORB-SLAM2 asks this of its
-  // first keyframe only.
-  double min_tracked_ratio_all = 0.6;
+  // first keyframe only. With 0.4 a camera before walkers follows a third of its keypoints; with more the
+  // chain of keyframes grows long, and its drift outweighs what more points gain.
+  double min_tracked_ratio_all = 0.5;
   double weak_share = 1.0 / 3;  // fewer than this share of either: even if the mapper is busy
   int min_tracked_close = 100;       // fewer close points tracked ...
   int min_untracked_close = 70;      // ... while so many could be made
