@@ -157,7 +157,6 @@ Rows DetectorRows(bool* detects_motion, DynamicDetectorOptions* options) {
 /// Each source of evidence can be left out, to see what it is worth.
 Rows EvidenceRows(DynamicDetectorOptions* options) {
   FusionOptions* fusion = &options->fusion;
-  GrowthOptions* growth = &options->growth;
   return {
       {"DynamicDetector.useFreeSpace",
        &fusion->use_free_space,
@@ -206,6 +205,11 @@ Rows EvidenceRows(DynamicDetectorOptions* options) {
        kOptional,
        {},
        "speeds of objects, for the report"},
+  };
+}
+
+Rows GrowthRows(GrowthOptions* growth) {
+  return {
       {"DynamicDetector.useGrowth", &growth->use_growth, kOptional, {}, "into pixels without depth"},
       {"DynamicDetector.useBackground",
        &growth->use_background,
@@ -234,6 +238,7 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   DynamicDetectorOptions& detector = settings->detector;
   add(DetectorRows(&settings->detects_motion, &detector));
   add(EvidenceRows(&detector));
+  add(GrowthRows(&detector.growth));
   return all;
 }
 
