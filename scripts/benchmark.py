@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+import regression_runs
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -31,11 +33,14 @@ def measure(build, arguments, sequence, settings, extra):
         ate = json.loads(run([ROOT / "scripts/evaluate_ate.py", sequence / "groundtruth.txt",
                               pathlib.Path(folder, "CameraTrajectory.txt"), "--json", "-"]))
     tracking = sorted(report["per_frame"]["tracking_cpu_s"])
+    detector = regression_runs.detector_figures(report)
     return {
         "ATE RMSE, m": ate["rmse"],
         "coverage": report["coverage"],
         "tracking median, cv::ORB": statistics.median(tracking) / unit_s,
         "tracking p99, cv::ORB": tracking[int(0.99 * (len(tracking) - 1))] / unit_s,
+        "detector median, cv::ORB": (detector["median_s"] or 0) / unit_s,
+        "detector p99, cv::ORB": (detector["p99_s"] or 0) / unit_s,
         "all threads a frame, cv::ORB": report["cpu_s"] / report["frames"]["processed"] / unit_s,
         "start to first frame, s": report["startup_s"],
         "peak memory, MB": report["peak_memory_mb"],

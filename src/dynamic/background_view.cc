@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "cells.h"
 #include "projection.h"
 
 namespace orbslam {
@@ -38,6 +39,7 @@ void Splat(const GridCamera& camera, const WorkingFrame& current, const Referenc
   const Rigid3d current_from_reference = Inverse(reference.reference_from_current);
   const float exposure = ExposureRatio(camera, current, reference);
   ProjectedRow row(camera.width);
+  const auto nearest_m = Cells(canvas->depth_m), nearest_gray = Cells(canvas->gray);
   for (int v = 0; v < camera.height; ++v) {
     ProjectRow(camera, current_from_reference, v, reference.filled_depth_m[v], &row);
     const uint8_t* moving = reference.moving[v];
@@ -45,10 +47,9 @@ void Splat(const GridCamera& camera, const WorkingFrame& current, const Referenc
     for (int u = 0; u < camera.width; ++u) {
       const int index = row.index[u];
       if (index < 0 || moving[u] != 0) continue;
-      float& depth = canvas->depth_m(index);
-      if (row.depth_m[u] >= depth) continue;
-      depth = row.depth_m[u];
-      canvas->gray(index) = gray[u] * exposure;
+      if (row.depth_m[u] >= nearest_m[index]) continue;
+      nearest_m[index] = row.depth_m[u];
+      nearest_gray[index] = gray[u] * exposure;
     }
   }
 }

@@ -14,8 +14,9 @@ cv::Mat1f Smoothed(const cv::Mat1f& log_odds, const cv::Mat1f& weight) {
   cv::Mat1f sum, count;
   cv::boxFilter(log_odds, sum, CV_32F, {5, 5}, {-1, -1}, false, cv::BORDER_CONSTANT);
   cv::boxFilter(weight, count, CV_32F, {5, 5}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::Mat1f mean(log_odds.size());
-  for (int i = 0; i < static_cast<int>(mean.total()); ++i) mean(i) = weight(i) > 0 ? sum(i) / count(i) : 0.f;
+  cv::Mat1f mean;
+  cv::divide(sum, count, mean);
+  mean.setTo(0, weight == 0);
   return mean;
 }
 

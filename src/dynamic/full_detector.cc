@@ -21,7 +21,7 @@ constexpr float kMinLogOdds = -2.f,
 FullDetector::FullDetector(const PinholeCamera& camera, const DynamicDetectorOptions& options)
     : options_(options),
       reducer_(camera),
-      history_(reducer_.grids().cell, options.references),
+      history_(reducer_.grids().cell, options.references, camera.readout_s),
       motion_estimator_(reducer_.grids(), options.camera_motion),
       evidence_(MakeEvidence(options.fusion)) {}
 

@@ -6,6 +6,7 @@
 
 #include "depth_noise.h"
 #include "orbslam/geometry/so3.h"
+#include "wide_vectors.h"
 
 namespace orbslam {
 namespace {
@@ -14,16 +15,15 @@ using Matrix6f = Eigen::Matrix<float, 6, 6>;
 using Vector6f = Eigen::Matrix<float, 6, 1>;
 
 struct Sums {
-  float hessian[21] = {};  // upper triangle, row by row
-  float gradient[6] = {};
+  // J^T W (J, residual, 0): the Hessian's rows and, in column 6, the gradient. Eight columns make a vector.
+  static constexpr int kGradient = 6, kColumns = 8;
+  float rows[6][kColumns] = {};
   int num_pairs = 0, num_fitting = 0;
 
-  void Add(const float (&j)[6], float residual, float weight) {
-    int k = 0;
+  void Add(const float (&j)[kColumns], float weight) {
     for (int a = 0; a < 6; ++a) {
       const float wa = weight * j[a];
-      gradient[a] += wa * residual;
-      for (int b = a; b < 6; ++b) hessian[k++] += wa * j[b];
+      for (int b = 0; b < kColumns; ++b) rows[a][b] += wa * j[b];
     }
   }
 };
@@ -76,9 +76,16 @@ void AddPairs(const GridCamera& camera, const WorkingFrame& source, const cv::Ma
       const float mx = r(0, 0) * nx + r(1, 0) * ny + r(2, 0) * nz;  // the normal in the source frame
       const float my = r(0, 1) * nx + r(1, 1) * ny + r(2, 1) * nz;
       const float mz = r(0, 2) * nx + r(1, 2) * ny + r(2, 2) * nz;
-      sums->Add({y * mz - z * my, z * mx - x * mz, x * my - y * mx, mx, my, mz}, residual, weight);
+      sums->Add({y * mz - z * my, z * mx - x * mz, x * my - y * mx, mx, my, mz, residual, 0}, weight);
     }
   }
+}
+
+ORBSLAM_WIDE_VECTORS void AddPairsWide(const GridCamera& camera, const WorkingFrame& source,
+                                       const cv::Mat1b* ignored_source, const IcpTarget& target,
+                                       const Rigid3d& target_from_source, const IcpOptions& options,
+                                       int stride, Sums* sums) {
+  AddPairs(camera, source, ignored_source, target, target_from_source, options, stride, sums);
 }
 
 /// One Gauss-Newton step with the prior; the pose's perturbation.
@@ -86,10 +93,9 @@ Vector6f Step(const Sums& sums, float weight, const Rigid3d& prior_from_source,
               const Matrix6f& prior_information) {
   Matrix6f hessian;
   Vector6f gradient;
-  int k = 0;
   for (int a = 0; a < 6; ++a) {
-    gradient[a] = weight * sums.gradient[a];
-    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = weight * sums.hessian[k++];
+    gradient[a] = weight * sums.rows[a][Sums::kGradient];
+    for (int b = a; b < 6; ++b) hessian(a, b) = hessian(b, a) = weight * sums.rows[a][b];
   }
   Vector6f from_prior;
   from_prior << So3Log(prior_from_source.rotation).cast<float>(), prior_from_source.translation.cast<float>();
@@ -109,13 +115,14 @@ Eigen::Matrix<double, 6, 6> IsotropicInformation(double sigma_rotation_rad, doub
 IcpResult AlignDepth(const GridCamera& camera, const WorkingFrame& source, const cv::Mat1b* ignored_source,
                      std::span<const IcpTarget> targets, const Rigid3d& base_from_source_prior,
                      const Eigen::Matrix<double, 6, 6>& prior_information, const IcpOptions& options) {
+  const auto add_pairs = HasWideVectors() ? AddPairsWide : AddPairs;
   IcpResult result;
   result.base_from_source = base_from_source_prior;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     Sums sums;
     const int stride = iteration < 2 && options.iterations > 3 ? 2 * options.stride : options.stride;
     for (const IcpTarget& target : targets)
-      AddPairs(camera, source, ignored_source, target, target.target_from_base * result.base_from_source,
+      add_pairs(camera, source, ignored_source, target, target.target_from_base * result.base_from_source,
                options, stride, &sums);
     result.num_pairs = sums.num_pairs, result.num_fitting = sums.num_fitting;
     const Rigid3d prior_from_source = Inverse(base_from_source_prior) * result.base_from_source;

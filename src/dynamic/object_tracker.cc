@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "cells.h"
+
 namespace orbslam {
 namespace {
 
@@ -76,9 +78,12 @@ ObjectTracker::Labelled ObjectTracker::Update(const GridCamera& camera, int pixe
   }
   result.object_of_cell = cv::Mat1i(parts.size());
   previous_ids_.create(parts.size());
-  for (int i = 0; i < static_cast<int>(parts.total()); ++i) {
-    result.object_of_cell(i) = index_of_part[parts(i)];
-    previous_ids_(i) = index_of_part[parts(i)] >= 0 ? ids[parts(i)] : 0;
+  const auto part_of_cell = Cells(parts), object_of_cell = Cells(result.object_of_cell);
+  const auto previous_ids = Cells(previous_ids_);
+  for (size_t i = 0; i < part_of_cell.size(); ++i) {
+    const int part = part_of_cell[i];
+    object_of_cell[i] = index_of_part[part];
+    previous_ids[i] = index_of_part[part] >= 0 ? ids[part] : 0;
   }
   return result;
 }

@@ -13,7 +13,7 @@ ReferenceOptions WithoutKeyframes(ReferenceOptions options) {
 
 PaperMode::PaperMode(const PinholeCamera& camera, const DynamicDetectorOptions& options)
     : reducer_(camera),
-      history_(reducer_.grids().cell, WithoutKeyframes(options.references)),
+      history_(reducer_.grids().cell, WithoutKeyframes(options.references), camera.readout_s),
       motion_estimator_(reducer_.grids(), options.camera_motion),
       detector_(PaperDetectorOptions{}) {
   for (int v = 0; v < camera.height; ++v)

@@ -42,10 +42,10 @@ cv::Mat1f FillHoles(const cv::Mat1f& depth_m) {
   }
   cv::Mat1f filled(1, 1, 0.f);
   for (size_t level = sums.size(); level-- > 0;) {
-    cv::Mat1f finer;
+    cv::Mat1f finer, mean;
     cv::resize(filled, finer, sums[level].size(), 0, 0, cv::INTER_LINEAR);
-    for (int i = 0; i < static_cast<int>(finer.total()); ++i)
-      if (weights[level](i) > 0) finer(i) = sums[level](i) / weights[level](i);
+    cv::divide(sums[level], weights[level], mean);
+    mean.copyTo(finer, weights[level] > 0);
     filled = finer;
   }
   return filled;

@@ -29,7 +29,9 @@ struct ReferenceView {
   cv::Mat1b moving;                      // cells that were masked then
   Rigid3d reference_from_current;        // of the depth images
   Rigid3d color_reference_from_current;  // of the colour images
+  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  // of the camera then, in its frame
   int age_frames = 0;
+  bool is_bent = false;                         // a rolling shutter bent it otherwise than the present frame
   bool is_aligned = true;                       // its own alignment with the present frame succeeded
   int frames_unaligned = 0;                     // in a row, until now
   std::shared_ptr<const HistogramCloud> cloud;  // for the motion histogram; may be null

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hindsight.h"
+#include "orbslam/geometry/so3.h"
 
 namespace orbslam {
 
@@ -15,6 +16,7 @@ const ReferenceView* SceneHistory::Back(int num_back) const {
 
 void SceneHistory::Advance(const Rigid3d& depth_previous_from_current,
                            const Rigid3d& color_previous_from_current) {
+  turn_rad_ = So3Log(Inverse(color_previous_from_current).rotation);
   for (auto* views : {&recent_, &keyframes_})
     for (ReferenceView& view : *views) {
       view.reference_from_current = view.reference_from_current * depth_previous_from_current;
@@ -31,6 +33,8 @@ void SceneHistory::CorrectColor(const ReferenceView& view, const Rigid3d& color_
 }
 
 void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_misled) {
+  if (const double interval_s = current.timestamp_s - recent_.front().frame->timestamp_s; interval_s > 0)
+    angular_velocity_rad_s_ = turn_rad_ / interval_s;
   frames_since_misled_ = is_depth_misled ? 0 : frames_since_misled_ + 1;
   IcpOptions icp;
   icp.stride = options_.stride, icp.iterations = options_.iterations;
@@ -42,12 +46,17 @@ void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_mis
     const IcpResult result =
         AlignDepth(camera_, current, nullptr, {&target, 1}, view.reference_from_current,
                    IsotropicInformation(options_.prior_rotation_rad, options_.prior_translation_m), icp);
+    view.is_bent = BendRad(view.angular_velocity_rad_s - angular_velocity_rad_s_) > options_.max_bend_rad;
     view.is_aligned = result.num_pairs >= options_.min_pairs && result.FitShare() >= options_.min_fit_share;
     view.frames_unaligned = view.is_aligned ? 0 : view.frames_unaligned + 1;
     if (view.is_aligned) view.reference_from_current = result.base_from_source;
   }
   std::erase_if(keyframes_,
                 [&](const ReferenceView& view) { return view.frames_unaligned > options_.max_unaligned; });
+}
+
+double SceneHistory::BendRad(const Eigen::Vector3d& difference_rad_s) const {
+  return difference_rad_s.norm() * readout_s_ / 2;
 }
 
 const ReferenceView* SceneHistory::KeyframeOfAge(int age_frames) const {
@@ -76,6 +85,7 @@ void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1
   view.filled_depth_m = FillHoles(frame->depth_m);
   view.frame = std::move(frame);
   view.moving = moving;
+  view.angular_velocity_rad_s = angular_velocity_rad_s_;
   view.cloud = std::move(cloud);
   recent_.push_front(view);
   if (static_cast<int>(recent_.size()) > options_.num_recent) recent_.pop_back();

@@ -14,8 +14,9 @@ namespace orbslam {
 /// the last few, and keyframes.
 class SceneHistory {
  public:
-  SceneHistory(const GridCamera& cell_camera, const ReferenceOptions& options)
-      : camera_(cell_camera), options_(options) {}
+  /// readout_s: of the camera's rolling shutter, see PinholeCamera.
+  SceneHistory(const GridCamera& cell_camera, const ReferenceOptions& options, double readout_s)
+      : camera_(cell_camera), options_(options), readout_s_(readout_s) {}
 
   /// The frame num_back before the one that is being processed; null: none.
   const ReferenceView* Back(int num_back) const;
@@ -41,14 +42,20 @@ class SceneHistory {
   /// Drops one: the oldest if it is too old, else that whose neighbours' ages are most alike, so that ages
   /// come to grow geometrically.
   void ThinKeyframes();
+  /// By how much the first and the last line of two images, taken while the camera turned differently, are
+  /// off if those in the middle fit.
+  double BendRad(const Eigen::Vector3d& difference_rad_s) const;
 
   GridCamera camera_;
   ReferenceOptions options_;
+  double readout_s_;
   std::deque<ReferenceView> recent_;  // youngest first
   std::deque<ReferenceView> keyframes_;
   int frames_since_misled_ = 1 << 20;
   int frames_since_keyframe_ = 1 << 20;
   size_t looked_back_at_ = 0;  // index of a keyframe
+  Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();  // from the last frame to the present, in its frame
+  Eigen::Vector3d angular_velocity_rad_s_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace orbslam

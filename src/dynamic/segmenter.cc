@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cells.h"
+
 namespace orbslam {
 namespace {
 
@@ -28,8 +30,12 @@ Segmentation SegmentCells(const cv::Mat1f& depth_m, const cv::Mat1b& included, i
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const auto cloud = pcl::make_shared<pcl::PointCloud<Point>>(depth_m.cols, depth_m.rows);
   cloud->is_dense = false;
-  for (int i = 0; i < static_cast<int>(depth_m.total()); ++i)
-    (*cloud)[i].z = (*cloud)[i].x = (*cloud)[i].y = depth_m(i) > 0 && included(i) != 0 ? depth_m(i) : kNan;
+  const auto depths_m = Cells(depth_m);
+  const auto is_included = Cells(included);
+  for (size_t i = 0; i < depths_m.size(); ++i) {
+    Point& point = cloud->points[i];
+    point.x = point.y = point.z = depths_m[i] > 0 && is_included[i] != 0 ? depths_m[i] : kNan;
+  }
 
   const auto comparator = pcl::make_shared<SurfaceComparator>();
   comparator->setInputCloud(cloud);

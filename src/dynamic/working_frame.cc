@@ -94,8 +94,7 @@ WorkingGrids::WorkingGrids(const PinholeCamera& camera)
 }
 
 FrameReducer::FrameReducer(const PinholeCamera& camera)
-    : camera_(camera),
-      grids_(camera),
+    : grids_(camera),
       cell_corner_(grids_.cell.height, grids_.cell.width),
       raw_to_cell_(camera.height, camera.width) {
   const int step = grids_.cell_step;
@@ -105,7 +104,7 @@ FrameReducer::FrameReducer(const PinholeCamera& camera)
       const int x = static_cast<int>(std::lround(raw.x() - (step - 1) / 2.0));
       const int y = static_cast<int>(std::lround(raw.y() - (step - 1) / 2.0));
       const bool inside = x >= 0 && y >= 0 && x + step <= camera.width && y + step <= camera.height;
-      cell_corner_(v, u) = inside ? y * camera.width + x : -1;
+      cell_corner_(v, u) = inside ? cv::Point(x, y) : cv::Point(-1, 0);
     }
 
   std::vector<cv::Point2f> pixels;
@@ -162,9 +161,8 @@ cv::Mat1f FrameReducer::ReduceDepth(const cv::Mat1f& raw) const {
   const size_t stride = raw.step1();
   for (int v = 0; v < cells.rows; ++v)
     for (int u = 0; u < cells.cols; ++u) {
-      const int index = cell_corner_(v, u);
-      const float* corner = raw.ptr<float>(index / camera_.width) + index % camera_.width;
-      cells(v, u) = index < 0 ? 0.f : BlockDepth(corner, stride, grids_.cell_step);
+      const cv::Point corner = cell_corner_(v, u);
+      cells(v, u) = corner.x < 0 ? 0.f : BlockDepth(raw[corner.y] + corner.x, stride, grids_.cell_step);
     }
   return cells;
 }

@@ -52,10 +52,9 @@ class FrameReducer {
  private:
   cv::Mat1f ReduceDepth(const cv::Mat1f& raw) const;
 
-  PinholeCamera camera_;
   WorkingGrids grids_;
   cv::Mat gray_map_, gray_map_fraction_;  // for cv::remap, of the undistorted grey grid into the halved image
-  cv::Mat1i cell_corner_;                 // raw index of a cell's top left pixel; -1: outside
+  cv::Mat_<cv::Point> cell_corner_;       // raw pixel at a cell's top left; x = -1: outside
   cv::Mat1i raw_to_cell_;                 // cell index of each raw pixel; nearest one where there is none
 };
 

@@ -23,7 +23,7 @@ Pair Estimate(const std::function<std::vector<RoomBox>(uint32_t)>& movers) {
   constexpr uint32_t kLast = 9;
   const RenderedRoom room;
   const FrameReducer reducer(room.camera);
-  SceneHistory history(reducer.grids().cell, {});
+  SceneHistory history(reducer.grids().cell, {}, 0);
   CameraMotionEstimator estimator(reducer.grids(), {});
   for (uint32_t frame = 0; frame < kLast; ++frame) {
     const Rigid3d motion = Inverse(Sway(frame == 0 ? 0 : frame - 1)) * Sway(frame);

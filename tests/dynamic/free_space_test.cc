@@ -73,6 +73,17 @@ TEST(FreeSpace, WhatWasMaskedThenConfirmsNothing) {
   EXPECT_EQ(Share(Vote(Depth(2, 1.5f, 2), reference).confirmed_static, kThing), 0);
 }
 
+TEST(FreeSpace, OneBentViewIsNotBelievedWhenItSeesThroughButTwoAre) {
+  ReferenceView bent = Reference(Depth(3, 0, 1));
+  bent.is_bent = true;
+  const cv::Mat1f now = Depth(3, 2, 2);
+  const cv::Rect inside(kThing.x + 1, kThing.y + 1, kThing.width - 2, kThing.height - 2);
+  EXPECT_EQ(Share(Vote(now, bent).suspicious, inside), 0);
+  EXPECT_GT(Share(Vote(now, bent).confirmed_static, cv::Rect(5, 5, 150, 30)), 0.99);
+  const ReferenceView* both[] = {&bent, &bent};
+  EXPECT_GT(Share(VoteOnFreeSpace(kCamera, now, both, {}).suspicious, inside), 0.99);
+}
+
 TEST(FreeSpace, FollowsTheCamera) {
   ReferenceView reference = Reference(Depth(2, 0, 1));
   reference.reference_from_current.translation.z() = -0.5;  // the camera has come half a metre nearer ...
@@ -104,7 +115,7 @@ TEST(Background, ABlackMonitorIsExpectedAlthoughNothingWasMeasuredThere) {
   frame->pyramid.resize(3, cv::Mat1f(frame->depth_m.size(), 120.f));
   frame->pyramid[1] = cv::Mat1f(frame->depth_m.size(), 120.f);
   frame->pyramid[1](monitor).setTo(10);
-  SceneHistory history(kCamera, {});
+  SceneHistory history(kCamera, {}, 0);
   history.Add(frame, cv::Mat1b(frame->depth_m.size(), uint8_t{0}), nullptr);
   const ReferenceView* references[] = {history.Back(1)};
   const BackgroundView view = RenderBackground(kCamera, *frame, references);

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "hindsight.h"
+#include "normals.h"
 #include "orbslam/camera/depth_model.h"
+#include "orbslam/geometry/so3.h"
 #include "orbslam/util/random.h"
 
 namespace orbslam {
@@ -89,7 +91,7 @@ class SceneHistoryTest : public testing::Test {
   }
 
   ReferenceOptions options_;
-  SceneHistory history_{kCamera, options_};
+  SceneHistory history_{kCamera, options_, 0};
 };
 
 TEST_F(SceneHistoryTest, KeepsFewKeyFramesWhoseAgesGrowInProportion) {
@@ -120,6 +122,39 @@ TEST_F(SceneHistoryTest, LooksBackAtEachKeyFrameInTurn) {
   }
   EXPECT_EQ(num_marked, 4);
   EXPECT_GT(num_others, 0);
+}
+
+/// Whether a keyframe made while the camera turned at then_rad_s is bent against a frame at now_rad_s.
+bool IsBent(double readout_s, const Eigen::Vector3d& then_rad_s, const Eigen::Vector3d& now_rad_s) {
+  constexpr double kIntervalS = 1 / 30.0;
+  const ReferenceOptions options;
+  SceneHistory history(kCamera, options, readout_s);
+  const int age_frames = 6;
+  for (int i = 0; i <= options.keyframe_interval + age_frames; ++i) {
+    auto frame = std::make_shared<WorkingFrame>(*Frame(1.5f, i));
+    frame->timestamp_s = i * kIntervalS;
+    ComputeNormals(kCamera, frame.get());
+    if (i > 0) {
+      const Eigen::Vector3d rate_rad_s = i > options.keyframe_interval ? now_rad_s : then_rad_s;
+      history.Advance({}, {So3Exp(rate_rad_s * kIntervalS), Eigen::Vector3d::Zero()});
+      history.AlignKeyframes(*frame, false);
+    }
+    history.Add(frame, cv::Mat1b(frame->depth_m.size(), uint8_t{0}), nullptr);
+  }
+  for (const ReferenceView* view : history.FreeSpaceReferences())
+    if (view->age_frames == age_frames) return view->is_bent;
+  ADD_FAILURE() << "there is no keyframe of that age";
+  return false;
+}
+
+TEST(SceneHistory, AViewIsBentByARollingShutterIfTheCameraTurnedDifferentlyThen) {
+  const Eigen::Vector3d down(1.2, 0, 0), left(0, 1.8, 0), still(0, 0, 0);
+  const double kinect_s = 0.026;
+  EXPECT_TRUE(IsBent(kinect_s, down, -down));
+  EXPECT_TRUE(IsBent(kinect_s, down, left));
+  EXPECT_FALSE(IsBent(kinect_s, down, down));
+  EXPECT_FALSE(IsBent(kinect_s, down, still));
+  EXPECT_FALSE(IsBent(0, down, -down));
 }
 
 }  // namespace

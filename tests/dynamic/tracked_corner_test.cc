@@ -190,7 +190,7 @@ TEST_F(TrackedCornerTest, WhatTheLastMaskCoversDoesNotTellOfTheMotion) {
 }
 
 TEST_F(TrackedCornerTest, PuttingOneColourPoseRightLeavesTheViewsAsTheyAreToEachOther) {
-  SceneHistory history(grids_.cell, {});
+  SceneHistory history(grids_.cell, {}, 0);
   const auto frame = Frame(0, {}, {});
   const cv::Mat1b nothing(frame->depth_m.size(), uint8_t{0});
   const Rigid3d motion(So3Exp({0, 0.01, 0}), {0.02, 0, 0.01});
