@@ -60,7 +60,7 @@ void AddVotes(const GridCamera& camera, const cv::Mat1f& depth_m, const Referenc
               const FreeSpaceOptions& options, FreeSpaceVotes* votes) {
   const float margin0 = options.margin_m + options.drift_m * static_cast<float>(reference.age_frames);
   const auto add_row = HasWideVectors() ? AddRowWide : AddRow;
-  const uint8_t weight = reference.is_bent ? 1 : 2;
+  const auto weight = static_cast<uint8_t>(reference.half_votes);
   ProjectedRow row(camera.width);
   SeenRow seen(camera.width);
   for (int v = 0; v < camera.height; ++v) {

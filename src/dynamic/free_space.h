@@ -11,7 +11,7 @@ namespace orbslam {
 
 /// What the references say of each cell of the present frame.
 struct FreeSpaceVotes {
-  cv::Mat1b num_free;              // references that saw through it: two for each, one for a bent one
+  cv::Mat1b num_free;              // half votes of the references that saw through it
   cv::Mat1b num_static;            // references that saw it there, not moving: one for each
   cv::Mat1b suspicious;            // non-zero: stands in space that was free
   cv::Mat1b confirmed_static;      // non-zero: was there before, and nobody saw through it

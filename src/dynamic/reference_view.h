@@ -31,7 +31,7 @@ struct ReferenceView {
   Rigid3d color_reference_from_current;  // of the colour images
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  // of the camera then, in its frame
   int age_frames = 0;
-  bool is_bent = false;                         // a rolling shutter bent it otherwise than the present frame
+  int half_votes = 2;  // when it sees through; fewer if a rolling shutter bent it otherwise than the present
   bool is_aligned = true;                       // its own alignment with the present frame succeeded
   int frames_unaligned = 0;                     // in a row, until now
   std::shared_ptr<const HistogramCloud> cloud;  // for the motion histogram; may be null

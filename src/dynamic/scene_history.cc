@@ -35,6 +35,7 @@ void SceneHistory::CorrectColor(const ReferenceView& view, const Rigid3d& color_
 void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_misled) {
   if (const double interval_s = current.timestamp_s - recent_.front().frame->timestamp_s; interval_s > 0)
     angular_velocity_rad_s_ = turn_rad_ / interval_s;
+  WeighByBend();
   frames_since_misled_ = is_depth_misled ? 0 : frames_since_misled_ + 1;
   IcpOptions icp;
   icp.stride = options_.stride, icp.iterations = options_.iterations;
@@ -46,7 +47,6 @@ void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_mis
     const IcpResult result =
         AlignDepth(camera_, current, nullptr, {&target, 1}, view.reference_from_current,
                    IsotropicInformation(options_.prior_rotation_rad, options_.prior_translation_m), icp);
-    view.is_bent = BendRad(view.angular_velocity_rad_s - angular_velocity_rad_s_) > options_.max_bend_rad;
     view.is_aligned = result.num_pairs >= options_.min_pairs && result.FitShare() >= options_.min_fit_share;
     view.frames_unaligned = view.is_aligned ? 0 : view.frames_unaligned + 1;
     if (view.is_aligned) view.reference_from_current = result.base_from_source;
@@ -55,8 +55,14 @@ void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_mis
                 [&](const ReferenceView& view) { return view.frames_unaligned > options_.max_unaligned; });
 }
 
-double SceneHistory::BendRad(const Eigen::Vector3d& difference_rad_s) const {
-  return difference_rad_s.norm() * readout_s_ / 2;
+void SceneHistory::WeighByBend() {
+  for (auto* views : {&recent_, &keyframes_})
+    for (ReferenceView& view : *views) {
+      const double difference_rad_s = (view.angular_velocity_rad_s - angular_velocity_rad_s_).norm();
+      // By so much the first and the last line are off if those in the middle fit.
+      const double bend_rad = difference_rad_s * readout_s_ / 2;
+      view.half_votes = 2 - static_cast<int>(std::min(bend_rad / options_.max_bend_rad, 2.0));
+    }
 }
 
 const ReferenceView* SceneHistory::KeyframeOfAge(int age_frames) const {

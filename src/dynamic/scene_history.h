@@ -42,9 +42,8 @@ class SceneHistory {
   /// Drops one: the oldest if it is too old, else that whose neighbours' ages are most alike, so that ages
   /// come to grow geometrically.
   void ThinKeyframes();
-  /// By how much the first and the last line of two images, taken while the camera turned differently, are
-  /// off if those in the middle fit.
-  double BendRad(const Eigen::Vector3d& difference_rad_s) const;
+  /// Gives each view the fewer votes the more a rolling shutter bent it against the present frame.
+  void WeighByBend();
 
   GridCamera camera_;
   ReferenceOptions options_;

@@ -75,7 +75,7 @@ TEST(FreeSpace, WhatWasMaskedThenConfirmsNothing) {
 
 TEST(FreeSpace, OneBentViewIsNotBelievedWhenItSeesThroughButTwoAre) {
   ReferenceView bent = Reference(Depth(3, 0, 1));
-  bent.is_bent = true;
+  bent.half_votes = 1;
   const cv::Mat1f now = Depth(3, 2, 2);
   const cv::Rect inside(kThing.x + 1, kThing.y + 1, kThing.width - 2, kThing.height - 2);
   EXPECT_EQ(Share(Vote(now, bent).suspicious, inside), 0);

@@ -124,8 +124,8 @@ TEST_F(SceneHistoryTest, LooksBackAtEachKeyFrameInTurn) {
   EXPECT_GT(num_others, 0);
 }
 
-/// Whether a keyframe made while the camera turned at then_rad_s is bent against a frame at now_rad_s.
-bool IsBent(double readout_s, const Eigen::Vector3d& then_rad_s, const Eigen::Vector3d& now_rad_s) {
+/// Of a keyframe made while the camera turned at then_rad_s, against a frame at now_rad_s.
+int HalfVotes(double readout_s, const Eigen::Vector3d& then_rad_s, const Eigen::Vector3d& now_rad_s) {
   constexpr double kIntervalS = 1 / 30.0;
   const ReferenceOptions options;
   SceneHistory history(kCamera, options, readout_s);
@@ -142,19 +142,20 @@ bool IsBent(double readout_s, const Eigen::Vector3d& then_rad_s, const Eigen::Ve
     history.Add(frame, cv::Mat1b(frame->depth_m.size(), uint8_t{0}), nullptr);
   }
   for (const ReferenceView* view : history.FreeSpaceReferences())
-    if (view->age_frames == age_frames) return view->is_bent;
+    if (view->age_frames == age_frames) return view->half_votes;
   ADD_FAILURE() << "there is no keyframe of that age";
-  return false;
+  return -1;
 }
 
-TEST(SceneHistory, AViewIsBentByARollingShutterIfTheCameraTurnedDifferentlyThen) {
+TEST(SceneHistory, AViewThatARollingShutterBentOtherwiseHasFewerVotes) {
   const Eigen::Vector3d down(1.2, 0, 0), left(0, 1.8, 0), still(0, 0, 0);
   const double kinect_s = 0.026;
-  EXPECT_TRUE(IsBent(kinect_s, down, -down));
-  EXPECT_TRUE(IsBent(kinect_s, down, left));
-  EXPECT_FALSE(IsBent(kinect_s, down, down));
-  EXPECT_FALSE(IsBent(kinect_s, down, still));
-  EXPECT_FALSE(IsBent(0, down, -down));
+  EXPECT_EQ(HalfVotes(kinect_s, down, down), 2);
+  EXPECT_EQ(HalfVotes(kinect_s, down, still), 2);
+  EXPECT_EQ(HalfVotes(kinect_s, down, -down), 1);
+  EXPECT_EQ(HalfVotes(kinect_s, down, left), 1);
+  EXPECT_EQ(HalfVotes(kinect_s, 2 * down, -2 * down), 0);
+  EXPECT_EQ(HalfVotes(0, 2 * down, -2 * down), 2);
 }
 
 }  // namespace

@@ -79,8 +79,8 @@ struct ReferenceOptions {
   double min_fit_share = 0.6;          // of the paired points within 3 sigma; else it is not asked. With the
                                        // right pose 0.7 and more do, with any other a third
   int min_pairs = 60;                  // ten for each unknown
-  double max_bend_rad = 0.025;         // three cells of a Kinect: a view that a rolling shutter bent by more,
-                                       // against the present one, sees through with half a vote
+  double max_bend_rad = 0.025;         // three cells of a Kinect: bent by more, against the present one, by a
+                                       // rolling shutter, a view loses half its vote; bent by twice that, all
   int max_unaligned = 30;              // frames after which it is forgotten: 1 s, someone walks past
 };
 
