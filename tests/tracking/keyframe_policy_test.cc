@@ -97,7 +97,7 @@ TEST(KeyFramePolicy, NewTerritoryCountsBeforeAnyOtherKeyFrameHasSeenIt) {
   KeyFrameEvidence evidence = kContent;
   evidence.num_shared_points = 20;  // a keyframe of new things
   evidence.num_reference_points = 1000;
-  evidence.num_inliers = 550;
+  evidence.num_inliers = 650;
   EXPECT_FALSE(NeedsKeyFrame(evidence, {}));
   evidence.num_inliers = 300;  // fifteen times what is shared, but most of it is out of sight
   EXPECT_TRUE(NeedsKeyFrame(evidence, {}));

@@ -34,9 +34,9 @@ struct KeyFramePolicyOptions {
   double min_tracked_ratio = 0.75;
   // ... or of all its points. Few of a new keyframe's points have a second observer yet, and were those all
   // that count, the camera would leave its points behind before it is noticed. ORB-SLAM2 asks this of its
-  // first keyframe only. With 0.4 a camera before walkers follows a third of its keypoints; with more the
-  // chain of keyframes grows long, and its drift outweighs what more points gain.
-  double min_tracked_ratio_all = 0.5;
+  // first keyframe only. With 0.4 a camera before walkers follows a third of its keypoints; from
+  // 0.7 on the chain of keyframes grows long, and its drift outweighs what more points gain.
+  double min_tracked_ratio_all = 0.6;
   double weak_share = 1.0 / 3;  // fewer than this share of either: even if the mapper is busy
   int min_tracked_close = 100;       // fewer close points tracked ...
   int min_untracked_close = 70;      // ... while so many could be made
