@@ -109,10 +109,13 @@ void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const 
   facts->num_attached += attached;
 }
 
-void AddCorners(const Segmentation& segmentation, const Flow& flow, std::vector<ClusterFacts>* all) {
+/// held: where positive a corner counts, if it moves; null: all count everywhere.
+void AddCorners(const Segmentation& segmentation, const Flow& flow, const cv::Mat1f* held,
+                std::vector<ClusterFacts>* all) {
   for (const TrackedCorner& corner : flow.corners) {
     const cv::Point cell = CellOf(corner);
     if (!cv::Rect({0, 0}, segmentation.labels.size()).contains(cell)) continue;
+    if (held != nullptr && ((*held)(cell) <= 0 || !flow.Moves(corner))) continue;
     const int label = segmentation.labels(cell);
     if (label < 0) continue;
     ++(*all)[label].num_corners;
@@ -135,7 +138,10 @@ std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const Wo
       all[c].carried += carried(cell) / static_cast<float>(cells.size());
     }
   }
-  for (const Flow& flow : flows) AddCorners(segmentation, flow, &all);
+  for (const Flow& flow : flows) {
+    const bool only_holds = &flow != &flows.front() && !flow.gate.IsSharp();
+    AddCorners(segmentation, flow, only_holds ? &carried : nullptr, &all);
+  }
   return all;
 }
 

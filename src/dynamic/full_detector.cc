@@ -99,7 +99,7 @@ std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, const Judge
   OlderCorners slow = motion_estimator_.FollowFrom(*older, *history_.Back(1), frame, seed);
   if (slow.current_from_older) history_.CorrectColor(*older, Inverse(*slow.current_from_older));
   Flow flow = MakeFlow(std::move(slow.corners), options_.slow_flow.gate);
-  if (flow.gate.IsSharp()) flows.push_back(std::move(flow));
+  if (flow.gate.sharpness >= options_.slow_flow.min_sharpness) flows.push_back(std::move(flow));
   return flows;
 }
 

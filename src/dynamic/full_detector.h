@@ -30,7 +30,7 @@ class FullDetector {
   struct Judgement {
     CameraMotion motion;
     bool is_trusted = false;  // the motion, and with it the references
-    std::vector<Flow> flows;  // from the last frame; from an older one, if sharp
+    std::vector<Flow> flows;  // from the last frame; from an older one, unless it is too blurred
     cv::Mat2f shift;          // where moving things were in the last frame
     cv::Mat1f carried;        // log-odds of the last frame, there
     FreeSpaceVotes votes;

@@ -7,6 +7,7 @@
 
 #include "orbslam/camera/depth_model.h"
 #include "orbslam/util/check.h"
+#include "wide_vectors.h"
 
 namespace orbslam {
 namespace {
@@ -70,6 +71,11 @@ void FillRow(const HistogramCloud& cloud, const Capsule& capsule, float first_m,
       Splat((placement.along[i] - first_m) * per_bin, block.weight[i], num_bins, bins);
     }
   }
+}
+
+ORBSLAM_WIDE_VECTORS void FillRowWide(const HistogramCloud& cloud, const Capsule& capsule, float first_m,
+                                      float bin_m, int num_bins, float* bins) {
+  FillRow(cloud, capsule, first_m, bin_m, num_bins, bins);
 }
 
 void Append(const Eigen::Vector3f& point_m, float weight, int index, HistogramCloud::Block* block) {
@@ -136,9 +142,10 @@ MotionHistogram BuildMotionHistogram(std::span<const HistogramRow> rows, const S
   const int num_bins = 2 * half_bins + 1;
   histogram.first_m = -static_cast<float>(half_bins) * histogram.bin_m;
   histogram.weights = MotionHistogram::Matrix::Zero(static_cast<Eigen::Index>(rows.size()), num_bins);
+  const auto fill_row = HasWideVectors() ? FillRowWide : FillRow;
   for (size_t i = 0; i < rows.size(); ++i) {
-    FillRow(*rows[i].cloud, InFrameOf(rows[i], volume, reach_m), histogram.first_m, histogram.bin_m, num_bins,
-            histogram.weights.row(static_cast<Eigen::Index>(i)).data());
+    fill_row(*rows[i].cloud, InFrameOf(rows[i], volume, reach_m), histogram.first_m, histogram.bin_m,
+             num_bins, histogram.weights.row(static_cast<Eigen::Index>(i)).data());
   }
   return histogram;
 }

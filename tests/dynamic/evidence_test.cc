@@ -43,6 +43,40 @@ TEST(Evidence, MoreOfItNeverSpeaksTheOtherWay) {
   EXPECT_GT(Fuse(corners), Fuse(Mover()));
 }
 
+/// Two things side by side, the left of which moved before; on each a corner that moves and one that rests,
+/// followed from an older frame.
+std::vector<ClusterFacts> FactsFromOlderFrame(float sharpness) {
+  const cv::Rect left(0, 0, 20, 20), right(20, 0, 20, 20);
+  Segmentation segmentation{cv::Mat1i(20, 40, 0), std::vector<Cluster>(2)};
+  segmentation.labels(right).setTo(1);
+  for (int cell = 0; cell < 20 * 40; ++cell)
+    segmentation.clusters[segmentation.labels(cell)].cells.push_back(cell);
+  WorkingFrame frame;
+  frame.depth_m = cv::Mat1f(20, 40, 2.f);
+  cv::Mat1f carried(20, 40, -1.f);
+  carried(left).setTo(2);
+  const cv::Mat1b none(20, 40, uint8_t{0});
+  Flow last{{}, {0.5f, 1}}, older{{}, {1, sharpness}};
+  for (const float x : {20.f, 60.f})  // grey px, two a cell
+    for (const float residual_px : {3.f, 0.f}) {
+      TrackedCorner& corner = older.corners.emplace_back();
+      corner.current = {x, 20}, corner.residual_px = residual_px;
+    }
+  const std::vector<Flow> flows{last, older};
+  return GatherFacts(segmentation, frame, {none, none, none, none}, carried, flows);
+}
+
+TEST(Evidence, AnOlderFrameThatIsNotSharpHoldsWhatMovesButBeginsNothing) {
+  const std::vector<ClusterFacts> sharp = FactsFromOlderFrame(1), blurred = FactsFromOlderFrame(0.6f);
+  for (const ClusterFacts& facts : sharp) {
+    EXPECT_EQ(facts.num_corners, 2);
+    EXPECT_EQ(facts.num_moving_corners, 1);
+  }
+  EXPECT_EQ(blurred[0].num_corners, 1);
+  EXPECT_EQ(blurred[0].num_moving_corners, 1);
+  EXPECT_EQ(blurred[1].num_corners, 0);
+}
+
 TEST(Evidence, CornersWeighByHowExactTheyAre) {
   ClusterFacts facts = Mover();
   facts.num_judged = facts.num_suspicious = 0, facts.num_corners = facts.num_moving_corners = 40;
