@@ -117,8 +117,7 @@ struct SlowFlowOptions {
   int age_frames = 15;  // of the keyframe, half a second: who sits sways by 1 cm in it, 2 grey px at 1.5 m
   // Five sigma, for half a second averages blur; but in it a rolling shutter bends the picture further.
   CornerGateOptions gate{.multiple = 7.f, .max_sharp_px = 0.9f};
-  float min_sharpness =
-      0.5f;  // below 1 it only holds what moves already: it cannot tell who sways from who rests
+  float min_sharpness = 0.5f;  // below 1 it only holds what moves already, for who sways may seem to rest
 };
 
 /// Surfaces that slide within themselves: what depth alone would confirm as static, but corners see moving.
