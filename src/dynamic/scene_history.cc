@@ -127,6 +127,7 @@ void SceneHistory::Clear() {
   recent_.clear(), keyframes_.clear();
   frames_since_keyframe_ = 1 << 20;
   looked_back_at_ = 0;
+  angular_velocity_rad_s_.setZero();
 }
 
 }  // namespace orbslam

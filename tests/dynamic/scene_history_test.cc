@@ -124,6 +124,23 @@ TEST_F(SceneHistoryTest, LooksBackAtEachKeyFrameInTurn) {
   EXPECT_GT(num_others, 0);
 }
 
+TEST_F(SceneHistoryTest, ForgetsHowTheCameraTurnedWithAllElse) {
+  SceneHistory history(kCamera, options_, 0.026);
+  const Eigen::Vector3d turn_rad(0.1, 0, 0);
+  for (int i = 0; i < 2; ++i) {
+    auto frame = std::make_shared<WorkingFrame>(*Frame(0, i));
+    frame->timestamp_s = i / 30.0;
+    ComputeNormals(kCamera, frame.get());
+    if (i > 0) history.Advance({}, {So3Exp(turn_rad), Eigen::Vector3d::Zero()});
+    if (i > 0) history.AlignKeyframes(*frame, false);
+    history.Add(frame, cv::Mat1b(frame->depth_m.size(), uint8_t{0}), nullptr);
+  }
+  EXPECT_GT(history.Back(1)->angular_velocity_rad_s.norm(), 2);
+  history.Clear();
+  history.Add(Frame(0, 2), cv::Mat1b(kCamera.height, kCamera.width, uint8_t{0}), nullptr);
+  EXPECT_EQ(history.Back(1)->angular_velocity_rad_s.norm(), 0);
+}
+
 /// Of a keyframe made while the camera turned at then_rad_s, against a frame at now_rad_s.
 int HalfVotes(double readout_s, const Eigen::Vector3d& then_rad_s, const Eigen::Vector3d& now_rad_s) {
   constexpr double kIntervalS = 1 / 30.0;
