@@ -25,6 +25,14 @@ bool IsRedundant(const MapData& map, const Sensor& sensor, const MappingOptions&
   return num_redundant > options.redundant_ratio * num_points;
 }
 
+bool IsConfirmed(const MapData& map, const MapPoint& point, const MappingOptions& options) {
+  const auto measures = [&map](const Observation& observation) {
+    return map.Find(observation.keyframe)->features->HasDepth(observation.keypoint);
+  };
+  return point.NumObservations() >= options.min_unmeasured_observations ||
+         std::ranges::any_of(point.observations, measures);
+}
+
 }  // namespace
 
 int PointCuller::Cull(KeyFrameId now, MapData* map) {
@@ -43,6 +51,15 @@ int PointCuller::Cull(KeyFrameId now, MapData* map) {
     return age >= 3;
   });
   return num_erased;
+}
+
+int PointCuller::CullUnconfirmed(MapData* map) {
+  return static_cast<int>(std::erase_if(young_, [&](const Young& young) {
+    const MapPoint* point = map->Find(young.point);
+    if (point == nullptr || IsConfirmed(*map, *point, options_)) return false;
+    map->EraseMapPoint(young.point);
+    return true;
+  }));
 }
 
 int CullKeyFrames(const Sensor& sensor, const MappingOptions& options, KeyFrameId around, MapData* map) {

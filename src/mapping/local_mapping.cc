@@ -54,6 +54,7 @@ KeyFrameMapped LocalMapping::Process(const KeyFrameReady& message, bool more_wai
   }
   if (!more_waiting) {
     FuseWithNeighbors(keyframe);
+    point_culler_.CullUnconfirmed(&*map_->Write());
     AdjustBundle(keyframe, stop);
     const auto measure = timer_.Measure("map.cull");
     CullKeyFrames(sensor_, options_, keyframe, &*map_->Write());
@@ -104,7 +105,9 @@ void LocalMapping::AdjustBundle(KeyFrameId keyframe, std::stop_token stop) {
     moving.insert(keyframe);
     bundle = GatherBundle(*guard, sensor_, moving, options_.max_bundle_fixed);
   }
+  is_refining_ = true;
   const BundleSummary summary = SolveBundle(BundleOptions(), stop, &bundle.problem);
+  is_refining_ = false;
   ApplyBundle(bundle, summary, &*map_->Write());
 }
 

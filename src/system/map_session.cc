@@ -47,8 +47,9 @@ FrameReport MapSession::Track(const RgbdImage& image, const MaskOfFrame& mask_of
 /// A recorded sequence can wait, a camera cannot.
 MapperLoad MapSession::Load() const {
   if (!mode_.is_live) return {};
-  return {.is_idle = mapping_stage_.IsIdle(),
-          .accepts_keyframe = mapping_stage_.QueueSize() < kMaxWaitingKeyFrames};
+  const size_t num_waiting = mapping_stage_.QueueSize();
+  return {.is_idle = mapping_stage_.IsIdle() || (num_waiting == 0 && mapping_.IsRefining()),
+          .accepts_keyframe = num_waiting < kMaxWaitingKeyFrames};
 }
 
 void MapSession::HandOver(KeyFrameReady message) {

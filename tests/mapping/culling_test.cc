@@ -62,6 +62,37 @@ TEST_F(PointCullerTest, ForgottenAndErasedPointsAreNoHarm) {
   EXPECT_EQ(CullAt(0), 0);
 }
 
+class UnmeasuredPointTest : public PointCullerTest {
+ protected:
+  int CullUnconfirmed() { return culler_.CullUnconfirmed(&*map_.Write()); }
+};
+
+TEST_F(UnmeasuredPointTest, TwoKeyFramesAreNotBelieved) {
+  ForgetDepths(KeyFrameId(0));
+  ForgetDepths(KeyFrameId(1));
+  EXPECT_EQ(CullUnconfirmed(), std::ssize(points_));
+  for (const MapPointId id : points_) EXPECT_FALSE(IsAlive(id));
+  ExpectSound();
+}
+
+TEST_F(UnmeasuredPointTest, OneMeasuredDepthIsEnough) {
+  ForgetDepths(KeyFrameId(1));
+  EXPECT_EQ(CullUnconfirmed(), 0);
+}
+
+TEST_F(UnmeasuredPointTest, AThirdKeyFrameConfirms) {
+  Frame frame = SeeAndKnow(Rigid3d());
+  AddKeyFrame(&frame);
+  for (const uint32_t id : {0, 1, 2}) ForgetDepths(KeyFrameId(id));
+  std::erase_if(points_, [&](MapPointId id) { return map_.Read()->Find(id)->NumObservations() < 3; });
+  map_.Write()->RemoveObservation(points_[0], KeyFrameId(2));
+  CullUnconfirmed();
+  EXPECT_FALSE(IsAlive(points_[0]));
+  EXPECT_GT(std::ssize(points_), 1);
+  EXPECT_EQ(std::ranges::count_if(points_, [&](MapPointId id) { return IsAlive(id); }),
+            std::ssize(points_) - 1);
+}
+
 class CullKeyFramesTest : public SyntheticMap {
  protected:
   KeyFrameId Add(const Rigid3d& camera_from_world) {

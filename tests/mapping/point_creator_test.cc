@@ -74,12 +74,7 @@ TEST_F(PointCreatorTest, NothingIsLeftForASecondTime) {
 class DepthlessPointCreatorTest : public PointCreatorTest {
  protected:
   DepthlessPointCreatorTest() {
-    for (Frame& frame : frames_) {
-      auto features = std::make_shared<FrameFeatures>(*frame.features);
-      std::ranges::fill(features->depths_m, -1.0f);
-      std::ranges::fill(features->right_u, -1.0f);
-      map_.Write()->Find(KeyFrameId(frame.id.value))->features = features;
-    }
+    for (const Frame& frame : frames_) ForgetDepths(KeyFrameId(frame.id.value));
   }
 };
 

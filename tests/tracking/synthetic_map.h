@@ -53,6 +53,15 @@ class SyntheticMap : public testing::Test {
     return id;
   }
 
+  /// As if the depth camera had seen nothing in that keyframe.
+  void ForgetDepths(KeyFrameId keyframe) {
+    const auto map = map_.Write();
+    auto features = std::make_shared<FrameFeatures>(*map->Find(keyframe)->features);
+    std::ranges::fill(features->depths_m, -1.0f);
+    std::ranges::fill(features->right_u, -1.0f);
+    map->Find(keyframe)->features = features;
+  }
+
   /// Guards last until the end of their statement: this one's ends here.
   uint64_t Epoch() const { return map_.Read()->epoch(); }
 

@@ -19,6 +19,10 @@ class PointCuller {
   void Watch(MapPointId point, KeyFrameId born_at) { young_.push_back({point, born_at}); }
   /// Returns the number of points erased. now: the newest keyframe.
   int Cull(KeyFrameId now, MapData* map);
+  /// Erases the young points whose depth no keyframe has measured, unless min_unmeasured_observations agree
+  /// on it: two keyframes find a place for any mismatch along the epipolar line, and one that is very near
+  /// turns the pose of hundreds of true points. Returns how many.
+  int CullUnconfirmed(MapData* map);
   void Clear() { young_.clear(); }
 
  private:
