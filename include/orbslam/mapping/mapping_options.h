@@ -13,8 +13,8 @@ struct MappingOptions {
   int fusion_neighbors = 10;         // covisible keyframes, and ...
   int fusion_second_neighbors = 5;   // ... theirs, in which duplicates are looked for
   double fusion_radius_px = 3;       // px of the point's level
-  int max_bundle_keyframes = 12;     // that move in a local bundle adjustment, best covisibles first, and ...
-  int max_bundle_fixed = 30;         // ... further ones that hold them in place. ORB-SLAM2: all of both
+  int max_bundle_keyframes = 6;      // that move in a local bundle adjustment, best covisibles first
+  int max_bundle_fixed = 30;         // further keyframes that hold them in place. ORB-SLAM2: all
   double redundant_ratio = 0.9;      // a keyframe is culled when so many of its close points ...
   int redundant_observers = 3;       // ... are seen by so many others at the same or a finer scale
 };
