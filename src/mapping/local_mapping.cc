@@ -105,9 +105,7 @@ void LocalMapping::AdjustBundle(KeyFrameId keyframe, std::stop_token stop) {
     moving.insert(keyframe);
     bundle = GatherBundle(*guard, sensor_, moving, options_.max_bundle_fixed);
   }
-  is_refining_ = true;
   const BundleSummary summary = SolveBundle(BundleOptions(), stop, &bundle.problem);
-  is_refining_ = false;
   ApplyBundle(bundle, summary, &*map_->Write());
 }
 

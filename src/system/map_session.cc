@@ -47,9 +47,8 @@ FrameReport MapSession::Track(const RgbdImage& image, const MaskOfFrame& mask_of
 /// A recorded sequence can wait, a camera cannot.
 MapperLoad MapSession::Load() const {
   if (!mode_.is_live) return {};
-  const size_t num_waiting = mapping_stage_.QueueSize();
-  return {.is_idle = mapping_stage_.IsIdle() || (num_waiting == 0 && mapping_.IsRefining()),
-          .accepts_keyframe = num_waiting < kMaxWaitingKeyFrames};
+  return {.is_idle = mapping_stage_.IsIdle(),
+          .accepts_keyframe = mapping_stage_.QueueSize() < kMaxWaitingKeyFrames};
 }
 
 void MapSession::HandOver(KeyFrameReady message) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/mapping/local_mapping.h"
 
-#include <atomic>
-#include <thread>
-
 #include "tracking/synthetic_map.h"
 
 namespace orbslam::test {
@@ -88,23 +85,6 @@ TEST_F(LocalMappingTest, WithoutAnyDepthThreeKeyFramesMustAgree) {
   const auto map = map_.Read();
   EXPECT_GT(map->num_points(), 100);
   EXPECT_GE(std::ranges::min(map->MapPoints(), {}, &MapPoint::NumObservations).NumObservations(), 3);
-}
-
-TEST_F(LocalMappingTest, OnlyWhatMayBeCutShortIsCalledRefining) {
-  AddKeyFrames(7);
-  EXPECT_FALSE(mapping_.IsRefining());
-  std::stop_source stop;
-  std::atomic<bool> is_done = false;
-  std::jthread worker([&] {
-    Process(false, stop.get_token());
-    is_done = true;
-  });
-  bool was_refining = false;
-  while (!was_refining && !is_done) was_refining = mapping_.IsRefining();
-  stop.request_stop();
-  worker.join();
-  EXPECT_TRUE(was_refining);
-  EXPECT_FALSE(mapping_.IsRefining());
 }
 
 TEST_F(LocalMappingTest, WithMoreWaitingPosesAreLeftForLater) {

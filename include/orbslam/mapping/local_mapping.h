@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <mutex>
 #include <stop_token>
 
@@ -23,10 +22,6 @@ class LocalMapping {
   /// more_waiting: further keyframes are queued, so that only what cannot wait is done.
   KeyFrameMapped Process(const KeyFrameReady& message, bool more_waiting, std::stop_token stop = {});
 
-  /// Any thread may ask: Process is at what its stop token cuts short without harm, so that a further
-  /// keyframe need not wait. (ORB-SLAM2 interrupts its local bundle adjustment likewise.)
-  bool IsRefining() const { return is_refining_; }
-
   const StageTimer& timer() const { return timer_; }
 
  private:
@@ -38,7 +33,6 @@ class LocalMapping {
   const MappingOptions options_;
   Map* map_;
   PointCuller point_culler_;
-  std::atomic<bool> is_refining_ = false;
   StageTimer timer_;
 };
 

@@ -46,7 +46,7 @@ struct KeyFrameMapped {
 
 /// What Tracking knows of LocalMapping when it decides on a keyframe.
 struct MapperLoad {
-  bool is_idle = true;           // it would take up a keyframe at once
+  bool is_idle = true;
   bool accepts_keyframe = true;  // its queue has room
 };
 
