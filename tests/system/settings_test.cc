@@ -132,7 +132,7 @@ TEST(Settings, WhatMayBeLeftOutIsAndTheRestIsNot) {
 TEST(Settings, SectionsOfTheStagesAreOptionalAndReachTheirOptions) {
   const TempDir dir;
   const std::string yaml = *ReadFile(ConfigPath("TUM3.yaml")) +
-                           "Tracking.minInliers: 33\nLocalMapping.maxBundleKeyFrames: 11\n"
+                           "Tracking.minInliers: 33\nLocalMapping.maxBundleKeyFrames: 12\n"
                            "LoopClosing:\n  enabled: 0\n  minInliers: 25\n"
                            "DynamicDetector.mode: paper\nDynamicDetector.useGrowth: 0\n";
   std::vector<std::string> warnings;
@@ -140,7 +140,7 @@ TEST(Settings, SectionsOfTheStagesAreOptionalAndReachTheirOptions) {
   ASSERT_TRUE(settings.ok()) << settings.error().message;
   EXPECT_THAT(warnings, IsEmpty());
   EXPECT_EQ(settings->tracking.min_local_inliers, 33);
-  EXPECT_EQ(settings->mapping.max_bundle_keyframes, 11);
+  EXPECT_EQ(settings->mapping.max_bundle_keyframes, 12);
   EXPECT_EQ(settings->mapping.max_bundle_fixed, MappingOptions().max_bundle_fixed);
   EXPECT_FALSE(settings->closes_loops);
   EXPECT_EQ(settings->loops.min_inliers, 25);
