@@ -26,8 +26,8 @@ ALWAYS, QUICK = "synthetic_walking_xyz", "synthetic_walking_xyz_150"
 OTHER_MOTIONS = [f"synthetic_walking_{motion}" for motion in ("static", "rpy", "halfsphere")]
 SITUATIONS = [f"synthetic_{name}" for name in (
     "still_then_all_xyz_420", "cover_xyz", "close_xyz", "crossing_xyz", "waiting_xyz",
-    "newly_seen_halfsphere_420", "put_down_xyz", "taken_away_xyz", "monitor_xyz", "walking_static",
-    "static_xyz")]
+    "newly_seen_halfsphere_420", "put_down_xyz", "taken_away_xyz", "monitor_xyz", "crowd_xyz_200",
+    "walking_static", "static_xyz")]
 
 EMPTY_RATIOS = ("ate_ratio_empty", "ate_ratio_hidden")
 

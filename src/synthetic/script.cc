@@ -10,7 +10,7 @@
 namespace orbslam {
 namespace {
 
-constexpr std::array<std::pair<ScriptKind, std::string_view>, 13> kNames = {{
+constexpr std::array<std::pair<ScriptKind, std::string_view>, 14> kNames = {{
     {ScriptKind::kStatic, "static"},
     {ScriptKind::kWalking, "walking"},
     {ScriptKind::kSitting, "sitting"},
@@ -24,6 +24,7 @@ constexpr std::array<std::pair<ScriptKind, std::string_view>, 13> kNames = {{
     {ScriptKind::kPutDown, "put_down"},
     {ScriptKind::kTakenAway, "taken_away"},
     {ScriptKind::kMonitor, "monitor"},
+    {ScriptKind::kCrowd, "crowd"},
 }};
 
 constexpr auto kKinds = [] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
+#include <array>
 #include <utility>
 
 #include "script_cast.h"
@@ -8,7 +9,7 @@ namespace orbslam {
 namespace {
 
 constexpr uint64_t kScriptPurpose = 0x73637274;
-constexpr uint8_t kFirst = Script::kFirstPersonLabel, kSecond = Script::kSecondPersonLabel;
+constexpr uint8_t kFirst = Script::kFirstPersonLabel, kSecond = kFirst + 1;
 
 double Side(Rng* rng) { return rng->Below(2) == 0 ? 1 : -1; }
 
@@ -73,6 +74,25 @@ void AddCrossing(const Stage& stage, uint64_t seed, Rng* rng, ScriptCast* cast) 
     const double lane = i == 0 ? 1.0 : 1.5, side = i == 0 ? 1 : -1;
     Director director(stage, figure, side, -0.85, lane, rng->Uniform(0.4, 0.6), rng);
     director.Wait(0.1, 0.4).Go(1.25, lane).Wait(0.3, 0.8);
+    cast->actors.push_back(Play(figure, director.Looped(), static_cast<uint8_t>(kFirst + i), seed));
+  }
+}
+
+/// One walks before all others, another behind him, and two keep to the halves of the lane along the desk.
+void AddCrowd(const Stage& stage, uint64_t seed, Rng* rng, ScriptCast* cast) {
+  struct Beat {
+    double side, from, to, lane;
+  };
+  const double side = Side(rng);
+  const std::array<Beat, 4> beats = {
+      {{1, -1.1, 0.7, 0.84}, {-1, -1.2, 0.8, 1.29}, {1, 0.3, 1.6, 1.74}, {-1, 0.3, 1.6, 1.74}}};
+  for (size_t i = 0; i < beats.size(); ++i) {
+    const Beat& beat = beats[i];
+    const Figure figure(seed, static_cast<int>(i));
+    Director director(stage, figure, side * beat.side, beat.from, beat.lane, rng->Uniform(0.4, 0.6), rng);
+    director.Wait(0.1, 1.0).Go(rng->Uniform(0.3, 0.6), beat.lane);
+    if (i % 2 == 0) director.Face();
+    director.Wait(1.0, 4.0).Go(beat.to, beat.lane).Wait(0.3, 1.5);
     cast->actors.push_back(Play(figure, director.Looped(), static_cast<uint8_t>(kFirst + i), seed));
   }
 }
@@ -146,6 +166,9 @@ ScriptCast MakeCast(ScriptKind kind, uint64_t seed, const CameraView& view) {
       break;
     case ScriptKind::kCrossing:
       AddCrossing(stage, seed, &rng, &cast);
+      break;
+    case ScriptKind::kCrowd:
+      AddCrowd(stage, seed, &rng, &cast);
       break;
     case ScriptKind::kWaiting:
       AddWaiting(stage, seed, &rng, &cast);

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr uint64_t kThingsPurpose = 0x74686E67;
-constexpr uint8_t kFirst = Script::kFirstPersonLabel, kSecond = Script::kSecondPersonLabel;
+constexpr uint8_t kFirst = Script::kFirstPersonLabel, kSecond = kFirst + 1;
 constexpr uint8_t kThing = Script::kFirstThingLabel;
 
 Rigid3d OnFloor(const Placement& place, double z = 0) {

@@ -40,6 +40,7 @@ MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode m
 FrameReport MapSession::Track(const RgbdImage& image, const MaskOfFrame& mask_of_frame) {
   FrameReport report = tracking_.Process(image, Load(), mask_of_frame);
   trajectory_.Add(image, report);
+  for (const RevisedPose& pose : report.revised) trajectory_.Revise(pose);
   if (report.new_keyframe) HandOver(*report.new_keyframe);
   return report;
 }
@@ -79,6 +80,7 @@ void MapSession::Stop(std::chrono::milliseconds max_wait) {
   mapping_stage_.CloseAndJoin();
   loop_stage_.CloseAndJoin();
   if (loop_closing_) loop_closing_->FinishWithin(max_wait);
+  for (const RevisedPose& pose : tracking_.ReviseRest()) trajectory_.Revise(pose);
 }
 
 void MapSession::SetLocalizationMode(bool is_on) {

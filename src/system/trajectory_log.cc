@@ -16,6 +16,12 @@ void TrajectoryLog::Add(const RgbdImage& image, const FrameReport& report) {
                       report.reference, report.camera_from_reference});
 }
 
+void TrajectoryLog::Revise(const RevisedPose& revised) {
+  const auto entry = std::ranges::lower_bound(entries_, revised.frame, {}, &Entry::frame);
+  ORBSLAM_CHECK(entry != entries_.end() && entry->frame == revised.frame);
+  entry->camera_from_reference = revised.camera_from_reference;
+}
+
 std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
   std::vector<StampedPose> poses;
   const auto guard = map.Read();

@@ -21,6 +21,7 @@ Tracking::Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const T
       frame_tracker_(*map, sensor_, options_),
       local_map_tracker_(*map, sensor_, options_),
       relocalizer_(*map, places, sensor_, RelocalizerOptions()),
+      reviser_(*map, sensor_, options_.min_local_inliers),
       moving_(sensor_, {}, {}) {
   if (map->Read()->num_keyframes() > 0) state_ = TrackingState::kLost;
 }
@@ -42,6 +43,7 @@ FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper,
   report.tracking_cpu_s = stopwatch.CpuSeconds();
   timer_.Add("track", report.tracking_s);
   timer_.Add("track_cpu", report.tracking_cpu_s);
+  report.revised = Revise(image.timestamp_s - options_.revision_delay_s);
   return report;
 }
 
@@ -236,7 +238,15 @@ void Tracking::Remember(Frame frame, FrameReport* report) {
   report->world_from_camera = Inverse(frame.camera_from_world);
   report->reference = reference_;
   report->camera_from_reference = last_from_reference_;
+  if (options_.revision_delay_s > 0) reviser_.Keep(frame, reference_, last_from_reference_);
   last_ = std::move(frame);
+}
+
+std::vector<RevisedPose> Tracking::ReviseRest() { return Revise(std::numeric_limits<double>::infinity()); }
+
+std::vector<RevisedPose> Tracking::Revise(double until_s) {
+  const auto measure = timer_.Measure("revise");
+  return reviser_.ReviseUntil(until_s);
 }
 
 }  // namespace orbslam

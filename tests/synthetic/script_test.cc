@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -20,7 +21,7 @@ constexpr double kEndS = 40, kTickS = 0.25;
 const CameraView kView;
 
 bool IsPerson(uint8_t label) {
-  return label == Script::kFirstPersonLabel || label == Script::kSecondPersonLabel;
+  return label >= Script::kFirstPersonLabel && label < Script::kFirstThingLabel;
 }
 
 Vector3d VertexAt(const SceneObject& object, size_t i) {
@@ -90,9 +91,9 @@ TEST_P(ScriptOf, PeopleKeepToTheFreeFloorAndOffEachOtherAndTheCamera) {
       EXPECT_LT(std::abs(place.y()), Script::kFreeY + (place.z() < 0.7 ? 0.4 : 0.05)) << "at " << t;
       EXPECT_GT((place - kView.position).head<2>().norm(), least - 0.03) << "at " << t;
     }
-    if (hips.size() == 2) {
-      EXPECT_GT((hips.begin()->second - hips.rbegin()->second).head<2>().norm(), 0.4) << "at " << t;
-    }
+    for (auto one = hips.begin(); one != hips.end(); ++one)
+      for (auto other = std::next(one); other != hips.end(); ++other)
+        EXPECT_GT((one->second - other->second).head<2>().norm(), 0.4) << "at " << t;
   }
 }
 

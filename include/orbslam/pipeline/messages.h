@@ -54,6 +54,12 @@ struct MapperLoad {
 /// camera's predicted motion since the last frame (now_from_last); may wait.
 using MaskOfFrame = std::function<DynamicMask(const Rigid3d& now_from_last)>;
 
+/// What Tracking says of a frame some time later, when the map knows better; relative to the same keyframe.
+struct RevisedPose {
+  FrameId frame;
+  Rigid3d camera_from_reference;
+};
+
 /// What Tracking says of a frame.
 struct FrameReport {
   FrameId id;
@@ -70,6 +76,7 @@ struct FrameReport {
   double masked_share = 0;        // of the image, in [0, 1]
   int num_dropped_keypoints = 0;  // corners on moving objects, of all that were found
   std::optional<KeyFrameReady> new_keyframe;
+  std::vector<RevisedPose> revised;  // of earlier frames
 };
 
 }  // namespace orbslam

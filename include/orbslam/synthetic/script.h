@@ -28,10 +28,11 @@ enum class ScriptKind {
   kPutDown,       // someone brings a box, puts it down and leaves; the box stays
   kTakenAway,     // someone comes, takes a box that has stood there, and leaves with it
   kMonitor,       // someone walks close before the desk with its monitors (surfaces without depth)
+  kCrowd,         // four people walk, cross, stand for seconds, and hide up to half of the room
 };
 
 /// "static", "walking", "sitting", "objects", "close", "still_then_all", "cover", "crossing", "waiting",
-/// "newly_seen", "put_down", "taken_away", "monitor".
+/// "newly_seen", "put_down", "taken_away", "monitor", "crowd".
 std::optional<ScriptKind> ParseScript(std::string_view name);
 std::string_view ScriptName(ScriptKind kind);
 std::span<const ScriptKind> AllScripts();
@@ -53,7 +54,7 @@ class Script {
   static constexpr double kMinDistanceM = 0.8, kCloseM = 0.48;
   static constexpr double kMovingSpeed = 0.02;  // m/s
   static constexpr double kMovingWindowS = 1.0 / 30;
-  static constexpr uint8_t kFirstPersonLabel = 1, kSecondPersonLabel = 2, kFirstThingLabel = 3;
+  static constexpr uint8_t kFirstPersonLabel = 1, kFirstThingLabel = 11;
 
   Script(ScriptKind kind, uint64_t seed, const CameraView& view);
 

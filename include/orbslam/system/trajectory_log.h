@@ -16,6 +16,8 @@ class TrajectoryLog {
  public:
   /// Frames without a pose are not kept.
   void Add(const RgbdImage& image, const FrameReport& report);
+  /// Of a frame that was added.
+  void Revise(const RevisedPose& revised);
 
   /// One pose a tracked frame.
   std::vector<StampedPose> Camera(const Map& map) const;

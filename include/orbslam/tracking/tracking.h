@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "orbslam/features/orb_extractor.h"
 #include "orbslam/map/map.h"
@@ -13,6 +14,7 @@
 #include "orbslam/tracking/motion_model.h"
 #include "orbslam/tracking/moving_region.h"
 #include "orbslam/tracking/point_counter.h"
+#include "orbslam/tracking/pose_reviser.h"
 #include "orbslam/tracking/quarantine.h"
 #include "orbslam/tracking/relocalizer.h"
 #include "orbslam/tracking/tracking_options.h"
@@ -36,6 +38,9 @@ class Tracking {
   /// In localisation mode no keyframes are made: the map stays as it is.
   void SetLocalizationMode(bool is_on) { makes_keyframes_ = !is_on; }
 
+  /// The later poses of all frames that have none yet: for the end.
+  std::vector<RevisedPose> ReviseRest();
+
   /// Time spent in each step, seconds.
   const StageTimer& timer() const { return timer_; }
 
@@ -57,6 +62,7 @@ class Tracking {
   void EraseCondemnedPoints();
   void InsertKeyFrame(Frame* frame, FrameReport* report);
   void Remember(Frame frame, FrameReport* report);
+  std::vector<RevisedPose> Revise(double until_s);
 
   const Sensor& sensor_;
   const TrackingOptions options_;
@@ -69,6 +75,7 @@ class Tracking {
   MotionModel motion_;
   PointCounter counter_;
   Quarantine quarantine_;
+  PoseReviser reviser_;
   StageTimer timer_;
 
   TrackingState state_ = TrackingState::kNotInitialized;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/system/trajectory_log.h"
+
+#include "tracking/synthetic_map.h"
+
+namespace orbslam::test {
+namespace {
+
+class TrajectoryLogTest : public SyntheticMap {
+ protected:
+  TrajectoryLogTest() {
+    Frame frame = SeeAndKnow(reference_from_world_);
+    reference_ = AddKeyFrame(&frame);
+    for (uint32_t i = 0; i < 3; ++i) {
+      FrameReport report{.id = FrameId(i), .timestamp_s = 0.1 * i, .reference = reference_};
+      report.world_from_camera = Rigid3d();  // it was tracked
+      report.camera_from_reference = PoseOf(i);
+      log_.Add({.id = FrameId(i), .timestamp_s = 0.1 * i}, report);
+    }
+  }
+  static Rigid3d PoseOf(double i) { return {So3Exp({0, 0.1 * i, 0}), {0.2 * i, 0, 0}}; }
+  void ExpectPose(int index, const Rigid3d& camera_from_reference) {
+    EXPECT_THAT(log_.Camera(map_)[index].world_from_camera,
+                Rigid3dNear(Inverse(camera_from_reference * reference_from_world_), 1e-9, 1e-9));
+  }
+
+  const Rigid3d reference_from_world_{So3Exp({0, 0, 0.3}), {0, 0.1, 0}};
+  KeyFrameId reference_;
+  TrajectoryLog log_;
+};
+
+TEST_F(TrajectoryLogTest, PosesAreThoseRelativeToTheKeyFrame) {
+  ASSERT_EQ(log_.Camera(map_).size(), 3u);
+  for (int i = 0; i < 3; ++i) ExpectPose(i, PoseOf(i));
+}
+
+TEST_F(TrajectoryLogTest, ARevisedPoseReplacesTheFirst) {
+  log_.Revise({FrameId(1), PoseOf(7)});
+  ASSERT_EQ(log_.Camera(map_).size(), 3u);
+  ExpectPose(0, PoseOf(0));
+  ExpectPose(1, PoseOf(7));
+  ExpectPose(2, PoseOf(2));
+}
+
+}  // namespace
+}  // namespace orbslam::test
