@@ -6,6 +6,11 @@
 #include "orbslam/tracking/pose_refinement.h"
 
 namespace orbslam {
+namespace {
+
+constexpr double kMinLeft = 0.5;  // of the matches: fewer hold a pose worse than all of them did
+
+}  // namespace
 
 void PoseReviser::Keep(Frame frame, KeyFrameId reference, const Rigid3d& camera_from_reference) {
   kept_.push_back({std::move(frame), reference, camera_from_reference});
@@ -31,7 +36,8 @@ std::optional<RevisedPose> PoseReviser::Revise(Kept kept) const {
     reference_from_world = *found;
   }
   kept.frame.camera_from_world = kept.camera_from_reference * reference_from_world;
-  if (RefinePose(map_, sensor_, &kept.frame) < min_inliers_) return std::nullopt;
+  const double num_first = kept.frame.NumPoints();
+  if (RefinePose(map_, sensor_, &kept.frame) < kMinLeft * num_first) return std::nullopt;
   return RevisedPose{kept.frame.id, kept.frame.camera_from_world * Inverse(reference_from_world)};
 }
 

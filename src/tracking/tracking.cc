@@ -21,7 +21,7 @@ Tracking::Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const T
       frame_tracker_(*map, sensor_, options_),
       local_map_tracker_(*map, sensor_, options_),
       relocalizer_(*map, places, sensor_, RelocalizerOptions()),
-      reviser_(*map, sensor_, options_.min_local_inliers),
+      reviser_(*map, sensor_),
       moving_(sensor_, {}, {}) {
   if (map->Read()->num_keyframes() > 0) state_ = TrackingState::kLost;
 }

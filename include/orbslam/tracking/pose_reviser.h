@@ -13,12 +13,11 @@ namespace orbslam {
 
 /// Looks for the pose of every frame once more some time later, over the same matches. By then the map knows
 /// better: wrong points and those on somebody who has set off are gone, the others have been adjusted. Who
-/// needs a pose at once has had it; trajectories are made of the later one.
+/// needs a pose at once has had it; trajectories are made of the later one. Where most matches are gone by
+/// then, the first pose stands.
 class PoseReviser {
  public:
-  /// min_inliers: with fewer matches left the first pose stands.
-  PoseReviser(const Map& map, const Sensor& sensor, int min_inliers)
-      : map_(map), sensor_(sensor), min_inliers_(min_inliers) {}
+  PoseReviser(const Map& map, const Sensor& sensor) : map_(map), sensor_(sensor) {}
 
   /// frame: later than those before. camera_from_reference: the frame's pose relative to a keyframe.
   void Keep(Frame frame, KeyFrameId reference, const Rigid3d& camera_from_reference);
@@ -36,7 +35,6 @@ class PoseReviser {
 
   const Map& map_;
   const Sensor& sensor_;
-  int min_inliers_;
   std::deque<Kept> kept_;  // oldest first
 };
 
