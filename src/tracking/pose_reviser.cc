@@ -27,8 +27,10 @@ std::vector<RevisedPose> PoseReviser::ReviseUntil(double timestamp_s) {
 
 std::optional<RevisedPose> PoseReviser::Revise(Kept kept) const {
   Rigid3d reference_from_world;
+  uint64_t epoch = 0;
   {
     const auto guard = map_.Read();
+    epoch = guard->epoch();
     const auto found = guard->CameraFromWorld(kept.reference);
     const KeyFrame* reference = guard->Find(kept.reference);
     // A keyframe's own pose has been adjusted together with the map.
@@ -37,7 +39,9 @@ std::optional<RevisedPose> PoseReviser::Revise(Kept kept) const {
   }
   kept.frame.camera_from_world = kept.camera_from_reference * reference_from_world;
   const double num_first = kept.frame.NumPoints();
-  if (RefinePose(map_, sensor_, &kept.frame) < kMinLeft * num_first) return std::nullopt;
+  const int num_left = RefinePose(map_, sensor_, &kept.frame);
+  const bool map_has_moved = map_.Read()->epoch() != epoch;  // and not the reference's pose that we took
+  if (map_has_moved || num_left < kMinLeft * num_first) return std::nullopt;
   return RevisedPose{kept.frame.id, kept.frame.camera_from_world * Inverse(reference_from_world)};
 }
 

@@ -25,9 +25,8 @@ struct TrackingOptions {
   double doubtful_share = 0.5;      // of the image, masked: most of what is seen then moves, and may ...
   double max_doubt_s = 1;           // ... still be there so long after, unseen by the detector
   double min_view_cos = 0.5;  // 60 degrees from a point's mean viewing direction
-  double revision_delay_s =
-      3;  // after which a frame's pose is looked for again; 0: never. Points on who sets
-          // off are gone after one second, the others adjusted for the last time after two
+  double revision_delay_s = 3;  // after which a frame's pose is looked for again; 0: never. Who set off is
+                                // known after one second, the last adjustment done after two
 };
 
 /// When a frame becomes a keyframe (ORB-SLAM2, section III-E).
