@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <stop_token>
+#include <thread>
 
 #include "orbslam/system/mask_files.h"
 #include "orbslam/system/run_report.h"
@@ -95,6 +97,17 @@ Result<Inputs> OpenInputs(const DatasetJob& job) {
   return inputs;
 }
 
+/// Takes seconds where a map is large; whoever interrupts does not want to wait for that.
+void AdjustMapsUnlessInterrupted(const std::atomic<bool>& is_interrupted, System* system) {
+  std::stop_source stop;
+  const std::jthread watcher([&](const std::stop_token& is_done) {
+    while (!is_done.stop_requested() && !is_interrupted)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    stop.request_stop();
+  });
+  if (!is_interrupted) system->AdjustMaps(stop.get_token());
+}
+
 /// Writes all that there is, even if one file fails.
 bool WriteResults(const DatasetJob& job, const std::string& report, const System& system) {
   const std::string folder = job.output_folder + "/";
@@ -150,6 +163,7 @@ int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
   const RunSummary summary =
       RunSequence(inputs->sequence, settings, job.run, is_interrupted, write_mask, &system);
   system.Shutdown();
+  if (settings.mapping.adjust_at_end) AdjustMapsUnlessInterrupted(is_interrupted, &system);
 
   const std::string report = FormatRunReport(job.command_line, settings, inputs->warnings, summary, system);
   const bool are_results_written = WriteResults(job, report, system);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/system/map_session.h"
 
+#include "orbslam/loop/loop_corrector.h"
+
 namespace orbslam {
 namespace {
 
@@ -11,7 +13,9 @@ constexpr size_t kMaxWaitingLoops = 64;
 
 MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode mode,
                        std::shared_ptr<const Vocabulary> vocabulary, MapData map)
-    : mode_(mode),
+    : sensor_(sensor),
+      mode_(mode),
+      loop_options_(settings.loops),
       map_(std::move(map)),
       places_(vocabulary ? std::optional<PlaceIndex>(std::in_place, vocabulary) : std::nullopt),
       tracking_(sensor, settings.orb, settings.tracking, settings.keyframes, places_ ? &*places_ : nullptr,
@@ -66,6 +70,7 @@ void MapSession::RunMapping(const KeyFrameReady& message) {
   {
     const auto turn = turn_.Take();
     mapped = mapping_.Process(message, mapping_stage_.QueueSize() > 0, turn.ShouldYield());
+    has_grown_ = true;
   }
   if (loop_closing_) loop_stage_.Push(mapped);
 }
@@ -83,6 +88,12 @@ void MapSession::Stop(std::chrono::milliseconds max_wait) {
   for (const RevisedPose& pose : tracking_.ReviseRest()) trajectory_.Revise(pose);
 }
 
+void MapSession::AdjustWholeMap(std::stop_token stop) {
+  if (!has_grown_) return;
+  const auto measure = timer_.Measure("map.final_bundle");
+  has_grown_ = !AdjustGlobally(loop_options_, sensor_, stop, &turn_, &map_);
+}
+
 void MapSession::SetLocalizationMode(bool is_on) {
   WaitUntilIdle();
   tracking_.SetLocalizationMode(is_on);
@@ -94,7 +105,8 @@ std::optional<Error> MapSession::failure() const {
 }
 
 std::map<std::string, StageTimer::Statistics> MapSession::Timings() const {
-  auto timings = tracking_.timer().Summarize();
+  auto timings = timer_.Summarize();
+  timings.merge(tracking_.timer().Summarize());
   timings.merge(mapping_.timer().Summarize());
   if (loop_closing_) timings.merge(loop_closing_->timer().Summarize());
   return timings;

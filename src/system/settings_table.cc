@@ -108,6 +108,11 @@ Rows MappingRows(MappingOptions* mapping) {
        "that hold them in place"},
       {"LocalMapping.redundantRatio", &mapping->redundant_ratio, kOptional, kShare,
        "of a keyframe's points seen by others, to erase it"},
+      {"LocalMapping.adjustAtEnd",
+       &mapping->adjust_at_end,
+       kOptional,
+       {},
+       "all keyframes at once when a sequence ends"},
   };
 }
 

@@ -78,6 +78,10 @@ void System::Shutdown() {
   sessions_.back()->Stop();
 }
 
+void System::AdjustMaps(std::stop_token stop) {
+  for (const auto& session : sessions_) session->AdjustWholeMap(stop);
+}
+
 void System::Reset() {
   sessions_.clear();
   num_frames_ = 0;

@@ -59,6 +59,14 @@ class Outputs(RgbdTumTest):
         for name in ("CameraTrajectory.txt", "settings.yaml"):
             self.assertEqual(read(os.path.join(self.output, name)), read(os.path.join(again, name)))
 
+    def test_keyframes_are_adjusted_at_the_end_unless_settings_say_otherwise(self):
+        self.run_tum("--sequential")
+        self.assertEqual(self.report()["timings"]["map.final_bundle"]["count"], 1)
+        settings = self.sequence.write("no_adjustment.yaml",
+                                       read(self.sequence.settings) + "\nLocalMapping.adjustAtEnd: 0\n")
+        self.run_tum("--sequential", settings=settings)
+        self.assertNotIn("map.final_bundle", self.report()["timings"])
+
     def test_lists_are_associated_as_the_file_given_says(self):
         self.run_tum("--sequential")
         again = self.path("again")

@@ -17,6 +17,7 @@ struct MappingOptions {
   int max_bundle_fixed = 30;         // further keyframes that hold them in place. ORB-SLAM2: all
   double redundant_ratio = 0.9;      // a keyframe is culled when so many of its close points ...
   int redundant_observers = 3;       // ... are seen by so many others at the same or a finer scale
+  bool adjust_at_end = true;         // the whole map, when a sequence ends. ORB-SLAM2: only after a loop
 };
 
 }  // namespace orbslam

@@ -31,6 +31,8 @@ class MapSession {
   void WaitUntilIdle();
   /// Finishes what is queued and joins. A global bundle adjustment gets max_wait to finish, then is given up.
   void Stop(std::chrono::milliseconds max_wait = std::chrono::milliseconds(1000));
+  /// Bundle adjustment of all keyframes, if there are new ones; to be called when stopped.
+  void AdjustWholeMap(std::stop_token stop);
 
   /// In localisation mode the map stays as it is.
   void SetLocalizationMode(bool is_on);
@@ -48,7 +50,9 @@ class MapSession {
   void HandOver(KeyFrameReady message);
   void RunMapping(const KeyFrameReady& message);
 
+  const Sensor& sensor_;
   const RunMode mode_;
+  const LoopOptions loop_options_;
   Map map_;
   EditTurn turn_;
   std::optional<PlaceIndex> places_;
@@ -56,6 +60,8 @@ class MapSession {
   LocalMapping mapping_;
   std::optional<LoopClosing> loop_closing_;
   TrajectoryLog trajectory_;
+  bool has_grown_ = false;  // written by local mapping alone, read when that has been joined
+  StageTimer timer_;
   // Last, so that they are joined before what they work on goes away; LoopClosing's first, since mapping
   // feeds it.
   Stage<KeyFrameMapped> loop_stage_;

@@ -49,6 +49,11 @@ class System {
   /// and after; no frame can be tracked after.
   void Shutdown();
 
+  /// Bundle adjustment of all maps with new keyframes, for better trajectories and a better map to save:
+  /// about a second for a hundred keyframes. To be called after Shutdown. Stopped, it leaves the map as it
+  /// is.
+  void AdjustMaps(std::stop_token stop = {});
+
   /// Forgets all maps and trajectories and starts again.
   void Reset();
 
