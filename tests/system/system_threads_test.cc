@@ -1,78 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <atomic>
-#include <chrono>
 #include <thread>
 
 #include "map/same_map.h"
 #include "orbslam/map/invariants.h"
 #include "orbslam/map/map_state.h"
-#include "orbslam/util/random.h"
-#include "system/synthetic_run.h"
-#include "util/temp_dir.h"
+#include "system/threaded_run.h"
 
 namespace orbslam::test {
 namespace {
-
-constexpr RunMode kDataset{}, kLive{.is_live = true};
-
-/// Moves fast, so that keyframes come often; small, so that ThreadSanitizer is done in time.
-const Recording& Walk() {
-  static const Recording recording(Motion::kLoop, 320, 30, /*stride=*/5);
-  return recording;
-}
-
-/// Once round the room and a quarter.
-const Recording& Round() {
-  static const Recording recording(Motion::kLoop, 320, 112, /*stride=*/8);
-  return recording;
-}
-
-System MakeSystem(RunMode mode, int num_features = 300) {
-  return System(SettingsFor(Walk().camera(), num_features), {.mode = mode, .vocabulary = ShippedVocabulary()});
-}
-
-int NumSavedPoses(const System& system) {
-  const TempDir dir;
-  EXPECT_TRUE(system.SaveTrajectory(dir.Path("camera.txt")).ok());
-  return static_cast<int>(ReadTrajectory(dir.Path("camera.txt")).value().size());
-}
-
-/// Shutdown promises two seconds; a sanitizer may take several times as long for the same work.
-std::chrono::duration<double> ShutdownLimit() {
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-  return std::chrono::seconds(10);
-#else
-  return std::chrono::seconds(2);
-#endif
-}
-
-TEST(SystemThreads, StartsAndStopsTwoHundredTimes) {
-  for (int i = 0; i < 200; ++i) {
-    System system = MakeSystem(i % 2 ? kLive : kDataset);
-    ASSERT_EQ(TrackFrames(Walk(), 0, i % 3, &system), i % 3);
-    if (i % 4 < 2) system.Shutdown();  // otherwise the destructor has to
-  }
-}
-
-TEST(SystemThreads, ShutsDownAtAnyFrameWithinTheTimePromised) {
-  Rng rng(5);
-  for (int i = 0; i < 50; ++i) {
-    System system = MakeSystem(i % 2 ? kLive : kDataset);
-    const int num_frames = static_cast<int>(rng.Uniform(0, 9));
-    ASSERT_EQ(TrackFrames(Walk(), 0, num_frames, &system), num_frames);
-    const auto start = std::chrono::steady_clock::now();
-    system.Shutdown();
-    EXPECT_LT(std::chrono::steady_clock::now() - start, ShutdownLimit()) << "after frame " << num_frames;
-    EXPECT_EQ(NumSavedPoses(system), num_frames);
-    EXPECT_FALSE(system.failure().has_value());
-  }
-}
 
 TEST(SystemThreads, EveryFrameIsTrackedWhetherTheMapperIsWaitedForOrNot) {
   for (const RunMode mode : {kDataset, kLive}) {
     System system = MakeSystem(mode);
     EXPECT_EQ(TrackFrames(Walk(), 0, Walk().size(), &system), Walk().size());
     system.Shutdown();
+    system.AdjustMaps();
     EXPECT_EQ(NumSavedPoses(system), Walk().size());
     EXPECT_GT(system.counts().keyframes, 1);
     EXPECT_FALSE(system.failure().has_value());
@@ -146,19 +89,6 @@ TEST(SystemThreads, LoopIsClosedBesideTracking) {
   EXPECT_GE(system.counts().loops, 1);
   EXPECT_THAT(FindBrokenInvariants(*system.map().Read()), testing::IsEmpty());
   EXPECT_EQ(NumSavedPoses(system), Round().size());
-}
-
-TEST(SystemThreads, ShutdownCutsAGlobalBundleAdjustmentShort) {
-  System system = MakeSystem(kDataset);
-  int num_frames = 0;
-  while (num_frames < Round().size() && system.counts().loops == 0) {
-    EXPECT_EQ(TrackFrames(Round(), num_frames, num_frames + 1, &system), 1);
-    ++num_frames;
-  }
-  const auto start = std::chrono::steady_clock::now();
-  system.Shutdown();
-  EXPECT_LT(std::chrono::steady_clock::now() - start, ShutdownLimit());
-  EXPECT_EQ(NumSavedPoses(system), num_frames);
 }
 
 }  // namespace
