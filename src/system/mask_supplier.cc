@@ -2,6 +2,7 @@
 #include "orbslam/system/mask_supplier.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "orbslam/pipeline/mask_warp.h"
 #include "orbslam/util/check.h"
@@ -19,6 +20,16 @@ cv::Mat United(const cv::Mat& a, const cv::Mat& b) {
   return b.empty() ? a : cv::Mat(a | b);
 }
 
+/// Corners on somebody's silhouette move with him, and so does half of what describes a corner beside it. The
+/// detector's own masks reach that far already.
+cv::Mat Widened(const cv::Mat& mask, int margin_px) {
+  if (mask.empty() || margin_px == 0) return mask;
+  const int side = 2 * margin_px + 1;
+  cv::Mat widened;
+  cv::dilate(mask, widened, cv::Mat::ones(side, side, CV_8U));
+  return widened;
+}
+
 }  // namespace
 
 MaskSupplier::MaskSupplier(const Settings& settings, bool use_detector, RunMode mode, UserMask user_mask)
@@ -26,6 +37,7 @@ MaskSupplier::MaskSupplier(const Settings& settings, bool use_detector, RunMode 
       mode_(mode),
       patience_s_(kPatienceFrames / settings.fps),
       user_mask_(std::move(user_mask)),
+      user_mask_margin_px_(settings.user_mask_margin_px),
       stage_(
           "detector", kMaxWaitingFrames, [this](const Job& job) { Detect(job); }, mode.OfStages()) {
   if (!use_detector || !settings.detects_motion) return;
@@ -68,7 +80,7 @@ DynamicMask MaskSupplier::Take(const Rigid3d& now_from_last) {
   if (!user_mask_) return result;
   const cv::Mat users = user_mask_(*now_.image);
   ORBSLAM_CHECK(users.empty() || (users.type() == CV_8UC1 && users.size() == now_.image->gray.size()));
-  result.mask = United(result.mask, users);
+  result.mask = United(result.mask, Widened(users, user_mask_margin_px_));
   return result;
 }
 

@@ -164,6 +164,14 @@ Rows DetectorRows(bool* detects_motion, DynamicDetectorOptions* options) {
   };
 }
 
+Rows MaskRows(int* margin_px) {
+  return {{"Masks.margin",
+           margin_px,
+           kOptional,
+           {0, 100},
+           "px, by which ready-made masks are widened: corners on a silhouette move along"}};
+}
+
 /// Each source of evidence can be left out, to see what it is worth.
 Rows EvidenceRows(DynamicDetectorOptions* options) {
   FusionOptions* fusion = &options->fusion;
@@ -249,6 +257,7 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(DetectorRows(&settings->detects_motion, &detector));
   add(EvidenceRows(&detector));
   add(GrowthRows(&detector.growth));
+  add(MaskRows(&settings->user_mask_margin_px));
   return all;
 }
 

@@ -28,17 +28,21 @@ class Masks(RgbdTumTest):
     def saved_mask(self, entry):
         return np.asarray(Image.open(os.path.join(self.path("saved"), self.mask_name(entry))))
 
-    def test_masks_of_others_are_used_and_written_out(self):
+    def test_masks_of_others_are_widened_used_and_written_out(self):
         masks = self.write_masks()
-        self.assert_works(self.run_tum("--no-detector", "--mask-dir", masks, "--save-masks", self.path("saved")))
-        columns = self.report()["per_frame"]
-        for share, dropped in zip(columns["masked_share"], columns["keypoints_dropped"]):
-            self.assertAlmostEqual(share, 107 / 320, places=6)
-            self.assertGreater(dropped, 0)
-        self.assertEqual(len(os.listdir(self.path("saved"))), self.frames)
-        for entry in self.sequence.entries:
-            mask = self.saved_mask(entry)
-            self.assertTrue((mask[:, self.left_third] == 255).all() and (mask[:, 107:] == 0).all())
+        for margin in (0, 8):
+            settings = self.sequence.write("margin.yaml",
+                                           read(self.sequence.settings) + f"\nMasks.margin: {margin}\n")
+            self.assert_works(self.run_tum("--no-detector", "--mask-dir", masks, "--save-masks",
+                                           self.path("saved"), settings=settings))
+            columns = self.report()["per_frame"]
+            for share, dropped in zip(columns["masked_share"], columns["keypoints_dropped"]):
+                self.assertAlmostEqual(share, (107 + margin) / 320, places=6)
+                self.assertGreater(dropped, 0)
+            self.assertEqual(len(os.listdir(self.path("saved"))), self.frames)
+            for entry in self.sequence.entries:
+                mask = self.saved_mask(entry)
+                self.assertTrue((mask[:, :107 + margin] == 255).all() and (mask[:, 107 + margin:] == 0).all())
 
     def test_masks_of_others_are_united_with_the_detectors(self):
         self.assert_works(self.run_tum("--mask-dir", self.write_masks(), "--save-masks", self.path("saved")))

@@ -70,6 +70,7 @@ TEST_F(MaskSupplierTest, ALiveFrameIsNotHeldUp) {
 }
 
 TEST_F(MaskSupplierTest, TheUsersMaskIsUnitedWithTheDetectors) {
+  settings_.user_mask_margin_px = 0;
   for (const bool use_detector : {false, true}) {
     MaskSupplier supplier(settings_, use_detector, kDataset, LeftHalf());
     supplier.Begin(Image(0));
@@ -77,6 +78,23 @@ TEST_F(MaskSupplierTest, TheUsersMaskIsUnitedWithTheDetectors) {
     ASSERT_EQ(mask.mask.size(), cv::Size(320, 240));
     EXPECT_EQ(cv::countNonZero(mask.mask.colRange(0, 160)), 160 * 240);
     EXPECT_EQ(cv::countNonZero(mask.mask.colRange(160, 320)), 0) << "nothing moves";
+  }
+}
+
+TEST_F(MaskSupplierTest, TheUsersMaskIsWidenedByTheMarginAndStaysAsItIs) {
+  const cv::Mat square = cv::Mat::zeros(240, 320, CV_8UC1);
+  const cv::Rect place(100, 60, 40, 50);
+  square(place) = 1;
+  for (const int margin : {0, 1, 8}) {
+    settings_.user_mask_margin_px = margin;
+    MaskSupplier supplier(settings_, false, kDataset, [&](const RgbdImage&) { return square; });
+    supplier.Begin(Image(0));
+    const cv::Mat mask = supplier.Take(Rigid3d()).mask;
+    const cv::Rect wide(place.x - margin, place.y - margin, place.width + 2 * margin,
+                        place.height + 2 * margin);
+    EXPECT_EQ(cv::countNonZero(mask), wide.area());
+    EXPECT_EQ(cv::countNonZero(mask(wide)), wide.area());
+    EXPECT_EQ(cv::countNonZero(square), place.area());
   }
 }
 

@@ -18,7 +18,8 @@
 namespace orbslam {
 
 /// A mask of the user's own for a frame, say of a segmentation network: CV_8UC1 of the image's size, non-zero
-/// on what may move; empty: none. Called from the thread that calls System::TrackRgbd.
+/// on what may move; empty: none. It is used widened by Settings::user_mask_margin_px. Called from the thread
+/// that calls System::TrackRgbd.
 using UserMask = std::function<cv::Mat(const RgbdImage&)>;
 
 /// Where masks come from: the DynamicDetector, on a thread of its own beside Tracking, the user, or both
@@ -65,6 +66,7 @@ class MaskSupplier {
   const RunMode mode_;
   const double patience_s_;  // of a live Take, from Begin
   const UserMask user_mask_;
+  const int user_mask_margin_px_;
   std::optional<DynamicDetector> detector_;
   StageTimer timer_;
   Job now_;

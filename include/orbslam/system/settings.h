@@ -30,6 +30,7 @@ struct Settings {
   LoopOptions loops;
   bool detects_motion = true;
   DynamicDetectorOptions detector;
+  int user_mask_margin_px = 8;  // Masks.margin: by which masks of others are widened
 
   Settings() { camera.width = 640, camera.height = 480; }
 };
