@@ -29,7 +29,7 @@ SITUATIONS = [f"synthetic_{name}" for name in (
     "newly_seen_halfsphere_420", "put_down_xyz", "taken_away_xyz", "monitor_xyz_200", "crowd_xyz_200",
     "walking_static_200", "static_xyz_200")]
 
-EMPTY_RATIOS = ("ate_ratio_empty", "ate_ratio_hidden")
+BASELINE_RATIOS = ("ate_ratio_empty", "ate_ratio_true_masks")
 
 # What can be bounded: meaning, unit, units in the value of 1.
 FIGURES = {
@@ -37,7 +37,7 @@ FIGURES = {
     "ate_ratio": ("ATE RMSE with the detector over that without", "", 1),
     "ate_ratio_median": ("median ATE RMSE of varied runs with the detector over that without", "", 1),
     "ate_ratio_empty": ("ATE RMSE over that of the same path with nobody there", "", 1),
-    "ate_ratio_hidden": ("ATE RMSE over that with nobody there and the same pixels hidden", "", 1),
+    "ate_ratio_true_masks": ("ATE RMSE over that with the true masks", "", 1),
     "eta_percent": ("improvement eta of the ATE RMSE", " %", 1),
     "coverage": ("coverage with the detector", " %", 100),
     "recall": ("recall of the masks", " %", 100),
@@ -85,7 +85,7 @@ def figures_of(result):
         return ate / baseline if baseline else None
     return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]),
             "ate_ratio_median": result["ate_ratio_median"],
-            **{name: ratio(result["empty_ate_m"].get(name)) for name in EMPTY_RATIOS},
+            **{name: ratio(result["baseline_ate_m"].get(name)) for name in BASELINE_RATIOS},
             "eta_percent": result["improvement_percent"]["ate"]["rmse"],
             "coverage": with_it["coverage"]["ratio"],
             **{name: masks.get(name) for name in ("recall", "precision", "iou", "wrongly_masked")},
@@ -113,18 +113,22 @@ def broken_bounds(name, figures, bounds):
     return lines
 
 
-def measure_empty(sequence, bounds, output, programs):
-    """For each of EMPTY_RATIOS that is bounded: ATE RMSE, m, of a synthetic camera path with nobody there, of
-    the whole pictures or without the pixels where somebody would be. Empty for real sequences."""
-    wanted = [name for name in EMPTY_RATIOS if any(key.endswith(name) for key in bounds or {})]
-    if sequence.recipe is None or not wanted:
-        return {}
-    empty = runs.locate(f"synthetic_static{sequence.name[sequence.recipe.end('script'):]}", output)
-    runs.make(empty, programs)
-    hidden = ["--mask-dir", os.path.join(sequence.folder, "mask")]
-    options = {"ate_ratio_empty": [], "ate_ratio_hidden": hidden}
-    return {name: runs.run_without_detector(empty, os.path.join(output, sequence.name, name), programs,
-                                            options[name])["ate"]["rmse"] for name in wanted}
+def measure_baselines(sequence, bounds, output, programs):
+    """For each of BASELINE_RATIOS that is bounded and known: the ATE RMSE, m, that it is over."""
+    folder, baselines = os.path.join(output, sequence.name), {}
+    if sequence.has_true_masks:
+        masks = ["--mask-dir", os.path.join(sequence.folder, "mask")]
+        baselines["ate_ratio_true_masks"] = (sequence, masks)
+    if sequence.recipe is not None:
+        empty = runs.locate(f"synthetic_static{sequence.name[sequence.recipe.end('script'):]}", output)
+        baselines["ate_ratio_empty"] = (empty, [])
+    errors = {}
+    for name, (baseline, options) in baselines.items():
+        if any(key.endswith(name) for key in bounds or {}):
+            runs.make(baseline, programs)
+            figures = runs.run_without_detector(baseline, os.path.join(folder, name), programs, options)
+            errors[name] = figures["ate"]["rmse"]
+    return errors
 
 
 def measure_median_ratio(sequence, bounds, folder, programs):
@@ -147,7 +151,7 @@ def measure(sequence, bounds, output, programs):
     return {"without": without, "with": with_it,
             "improvement_percent": compare_runs.compare(without, with_it),
             "ate_ratio_median": measure_median_ratio(sequence, bounds, folder, programs),
-            "empty_ate_m": measure_empty(sequence, bounds, output, programs)}
+            "baseline_ate_m": measure_baselines(sequence, bounds, output, programs)}
 
 
 def improvement_tables(results):

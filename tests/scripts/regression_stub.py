@@ -82,7 +82,7 @@ def rgbd_tum():
     truth = (sequence / "groundtruth.txt").read_text().splitlines()
     rows = [line.split() for line in truth[:args.max_frames]]
     noise, sigma_m = random.Random(1), error_m(settings, args.no_detector)
-    if args.mask_dir:  # hidden pixels cost half as much again
+    if args.mask_dir:  # masks of others cost half as much again
         sigma_m *= 1.5 if has_figure(pathlib.Path(args.mask_dir)) else 1
     estimate = [[row[0], *(f"{float(x) + noise.gauss(0, sigma_m):.6f}" for x in row[1:4]), *row[4:]]
                 for row in rows]
