@@ -125,7 +125,8 @@ def measure_baselines(sequence, bounds, output, programs):
     errors = {}
     for name, (baseline, options) in baselines.items():
         if any(key.endswith(name) for key in bounds or {}):
-            runs.make(baseline, programs)
+            if baseline is not sequence:
+                runs.make(baseline, programs)
             figures = runs.run_without_detector(baseline, os.path.join(folder, name), programs, options)
             errors[name] = figures["ate"]["rmse"]
     return errors

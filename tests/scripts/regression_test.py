@@ -85,6 +85,7 @@ class RegressionTest(StubbedTest):
                   "min_eta_percent: 89, min_recall: 1}")
         result = self.run_ok("--quick", NAME, *self.bounds(f"{NAME}: {bounds}"))
         self.assertIn("all figures are within their bounds", result.stdout)
+        self.assertEqual(result.stderr.count(f"{NAME}: making it"), 1)
 
     def test_each_broken_bound_is_told_in_a_line(self):
         bounds = "{max_ate_m: 0.1, max_ate_ratio: 1.03, min_eta_percent: 90, min_precision: 0.9}"
