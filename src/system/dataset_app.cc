@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <condition_variable>
 #include <filesystem>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 
@@ -101,8 +103,11 @@ Result<Inputs> OpenInputs(const DatasetJob& job) {
 void AdjustMapsUnlessInterrupted(const std::atomic<bool>& is_interrupted, System* system) {
   std::stop_source stop;
   const std::jthread watcher([&](const std::stop_token& is_done) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any done;  // by is_done alone: a signal's handler can notify nobody
     while (!is_done.stop_requested() && !is_interrupted)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      done.wait_for(lock, is_done, std::chrono::milliseconds(50), [&] { return is_interrupted.load(); });
     stop.request_stop();
   });
   if (!is_interrupted) system->AdjustMaps(stop.get_token());
