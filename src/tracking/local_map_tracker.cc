@@ -17,7 +17,7 @@ LocalMapTracker::Result LocalMapTracker::Track(const MovingRegion& moving, Frame
     const std::vector<KeyFrameId> keyframes = LocalKeyFrames(*guard, *frame);
     if (keyframes.empty()) return result;
     result.reference = keyframes.front();
-    CollectCandidates(*guard, *frame, keyframes, moving, &result.on_moving);
+    CollectCandidates(*guard, *frame, keyframes, moving, &result);
   }
   MatchCandidates(frame, counter);
   result.num_inliers = RefinePose(map_, sensor_, frame);
@@ -57,7 +57,7 @@ std::vector<KeyFrameId> LocalMapTracker::LocalKeyFrames(const MapData& map, cons
 
 void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
                                         const std::vector<KeyFrameId>& keyframes, const MovingRegion& moving,
-                                        std::vector<MapPointId>* on_moving) {
+                                        Result* result) {
   ++visit_;
   queries_.clear();
   candidates_.clear();
@@ -76,9 +76,10 @@ void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
       if (!view) continue;
       const Eigen::Vector3d x_camera = frame.camera_from_world * point.position_world;
       if (moving.Covers(x_camera)) {
-        if (moving.Shows(x_camera)) on_moving->push_back(id);
+        if (moving.Shows(x_camera)) result->on_moving.push_back(id);
         continue;
       }
+      if (moving.SeesThrough(x_camera)) result->seen_through.push_back(id);
       const bool is_head_on = view->view_cos > 0.998;
       view->query.radius_px *=
           static_cast<float>(options_.local_radius_factor *

@@ -6,7 +6,7 @@
 
 namespace orbslam {
 
-void Quarantine::ShownOnMovingObject(MapPointId id) {
+void Quarantine::Refute(MapPointId id) {
   if (++frames_[id] < kMinFrames) return;
   frames_.erase(id);
   condemned_.push_back(id);

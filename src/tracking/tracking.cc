@@ -64,7 +64,7 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
     raw = Describe(cv::Mat());
   }
   report->masked_share = report->moving.MaskedShare();
-  moving_ = MovingRegion(sensor_, report->moving.mask, image.depth_m);
+  moving_ = MovingRegion(sensor_, report->moving.mask, mask_of_frame ? image.depth_m : cv::Mat());
   report->num_dropped_keypoints = raw.num_dropped;
   FrameFeatures features =
       MakeFrameFeatures(raw, image.depth_m, sensor_.camera, sensor_.bounds, sensor_.depth);
@@ -183,9 +183,25 @@ bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
     return false;
   reference_ = result.reference;
-  for (const MapPointId id : result.on_moving) quarantine_.ShownOnMovingObject(id);
+  for (const MapPointId id : result.on_moving) quarantine_.Refute(id);
+  RefuteSeenThrough(result.seen_through, *frame);
   for (const MapPointId id : frame->points) quarantine_.FoundStatic(id);
   return true;
+}
+
+/// Depth is taken up to half a frame earlier or later than colour: what shifts by more than a rim from frame
+/// to frame may have its depth elsewhere.
+void Tracking::RefuteSeenThrough(const std::vector<MapPointId>& seen_through, const Frame& frame) {
+  if (!last_) return;
+  const auto guard = map_->Read();
+  for (const MapPointId id : seen_through) {
+    const MapPoint* point = guard->Find(id);
+    if (point == nullptr) continue;
+    const Eigen::Vector3d x_camera = frame.camera_from_world * point->position_world;
+    const Eigen::Vector3d x_last = last_->camera_from_world * point->position_world;
+    const Eigen::Vector2d shift_px = sensor_.camera.Project(x_camera) - sensor_.camera.Project(x_last);
+    if (x_last.z() > 0 && shift_px.norm() < MovingRegion::kRimPx) quarantine_.Refute(id);
+  }
 }
 
 /// Points on something that turned out to move: made before anyone knew.

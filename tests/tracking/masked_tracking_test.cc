@@ -23,7 +23,7 @@ cv::Mat Noise(const cv::Size& size, uint64_t seed) {
 class MaskedTrackingTest : public testing::Test {
  protected:
   static constexpr float kWallM = 2.5, kBoardM = 1.5;
-  static constexpr int kSpeedPx = 6;
+  static constexpr int kSpeedPx = 6, kNoBoard = -1;
 
   RgbdImage Image(int board_u) {
     RgbdImage image;
@@ -31,9 +31,19 @@ class MaskedTrackingTest : public testing::Test {
     image.timestamp_s = num_shown_++ / 30.0;
     image.gray = wall_.clone();
     image.depth_m = cv::Mat(size_, CV_32FC1, cv::Scalar(kWallM));
-    board_.copyTo(image.gray(BoardAt(board_u)));
-    image.depth_m(BoardAt(board_u)) = kBoardM;
+    if (board_u != kNoBoard) {
+      board_.copyTo(image.gray(BoardAt(board_u)));
+      image.depth_m(BoardAt(board_u)) = kBoardM;
+    }
+    image.gray = Shifted(image.gray);
     return image;
+  }
+  /// As seen by a camera that has gone to the right: new things come in there.
+  cv::Mat Shifted(const cv::Mat& image) const {
+    if (shifted_px_ == 0) return image;
+    cv::Mat shifted;
+    cv::hconcat(image.colRange(shifted_px_, image.cols), beside_.colRange(0, shifted_px_), shifted);
+    return shifted;
   }
   cv::Rect BoardAt(int board_u) const { return {board_u, 140, board_.cols, board_.rows}; }
   cv::Mat Mask(const cv::Rect& moving) const {
@@ -60,8 +70,9 @@ class MaskedTrackingTest : public testing::Test {
 
   const Sensor sensor_ = KinectSensor();
   const cv::Size size_{sensor_.camera.width, sensor_.camera.height};
-  const cv::Mat wall_ = Noise(size_, 1), board_ = Noise({200, 200}, 2);
+  const cv::Mat wall_ = Noise(size_, 1), board_ = Noise({200, 200}, 2), beside_ = Noise(size_, 3);
   uint32_t num_shown_ = 0;
+  int shifted_px_ = 0;
   Map map_{MapData(sensor_.pyramid)};
   Tracking tracking_{sensor_, OrbExtractorOptions(), TrackingOptions(), KeyFramePolicyOptions(), nullptr,
                      &map_};
@@ -86,6 +97,39 @@ TEST_F(MaskedTrackingTest, PointsOnWhatTurnsOutToMoveAreErasedAndOthersStay) {
   EXPECT_LT(NumPointsOnBoard(), 0.25 * num_on_board) << "all but those at the rim";
   EXPECT_GE(map_.Read()->num_points(), num_points - num_on_board);
   EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty());
+}
+
+TEST_F(MaskedTrackingTest, PointsOnWhatIsGoneAreErasedAndOthersStay) {
+  for (int i = 0; i < 3; ++i) Show(100, {});
+  const int num_on_board = NumPointsOnBoard(), num_points = map_.Read()->num_points();
+  ASSERT_GT(num_on_board, 50);
+  for (int i = 0; i < 6; ++i) Show(kNoBoard, {});
+  EXPECT_EQ(NumPointsOnBoard(), 0);
+  EXPECT_GE(map_.Read()->num_points(), num_points - num_on_board);
+  EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty());
+}
+
+TEST_F(MaskedTrackingTest, WhoDoesNotAskForMasksKeepsWhatIsGone) {
+  tracking_.Process(Image(100));
+  const int num_on_board = NumPointsOnBoard();
+  ASSERT_GT(num_on_board, 50);
+  for (int i = 0; i < 6; ++i) tracking_.Process(Image(kNoBoard));
+  EXPECT_EQ(NumPointsOnBoard(), num_on_board);
+}
+
+/// Depth may have been taken somewhat earlier or later.
+TEST_F(MaskedTrackingTest, WhileThePictureShiftsFastNothingIsTakenForGone) {
+  constexpr int kShiftPx = 12;
+  Show(100, {});
+  const int num_on_board = NumPointsOnBoard();
+  ASSERT_GT(num_on_board, 50);
+  for (int i = 1; i < 6; ++i) {
+    shifted_px_ = kShiftPx * i;
+    ASSERT_EQ(Show(kNoBoard, {}).state, TrackingState::kOk);
+    ASSERT_GE(NumPointsOnBoard(), num_on_board);
+  }
+  for (int i = 0; i < 6; ++i) Show(kNoBoard, {});
+  EXPECT_LT(NumPointsOnBoard(), 0.2 * num_on_board) << "it stands still again";
 }
 
 TEST_F(MaskedTrackingTest, InLocalizationModeNothingIsErased) {

@@ -58,6 +58,33 @@ TEST_F(MovingRegionTest, NothingIsShownWhereThereIsNoDepth) {
   EXPECT_FALSE(moving.Shows(PointAt(250, 150)));
 }
 
+TEST_F(MovingRegionTest, SeesThroughWhatIsClearlyBeforeAllThatIsMeasured) {
+  for (const cv::Mat& mask : {cv::Mat(), mask_}) {
+    const MovingRegion moving(sensor_, mask, depth_m_);
+    EXPECT_TRUE(moving.SeesThrough(PointAt(100, 300, 1)));
+    EXPECT_TRUE(moving.SeesThrough(PointAt(100, 300, kDepthM - 0.1)));
+    EXPECT_FALSE(moving.SeesThrough(PointAt(100, 300, kDepthM - 0.03))) << "no limb is so thin";
+    EXPECT_FALSE(moving.SeesThrough(PointAt(100, 300, kDepthM + 1))) << "hidden";
+  }
+}
+
+TEST_F(MovingRegionTest, DoesNotSeeThroughWhatMovesOrIsCloseBy) {
+  const cv::Rect pole{400, 0, 3, size_.height};
+  depth_m_(pole) = 1.2;
+  const MovingRegion moving(sensor_, mask_, depth_m_);
+  EXPECT_FALSE(moving.SeesThrough(PointAt(260, 145, 1))) << "masked";
+  for (const double u : {394, 401, 407}) EXPECT_FALSE(moving.SeesThrough(PointAt(u, 300, 1.2))) << u;
+  EXPECT_TRUE(moving.SeesThrough(PointAt(401, 300, 0.8))) << "the pole is behind";
+  EXPECT_TRUE(moving.SeesThrough(PointAt(420, 300, 1.2)));
+}
+
+TEST_F(MovingRegionTest, SeesThroughNothingWhereDepthIsUnknown) {
+  EXPECT_FALSE(MovingRegion(sensor_, mask_, {}).SeesThrough(PointAt(100, 300, 1)));
+  depth_m_.colRange(0, 101) = 0;
+  EXPECT_FALSE(MovingRegion(sensor_, mask_, depth_m_).SeesThrough(PointAt(100, 300, 1)));
+  EXPECT_TRUE(MovingRegion(sensor_, mask_, depth_m_).SeesThrough(PointAt(106, 300, 1)));
+}
+
 TEST_F(MovingRegionTest, MasksAreThoseOfTheDistortedImage) {
   Sensor distorted = sensor_;
   distorted.camera.distortion = {0.26, -0.95, -0.005, 0.003, 1.16};

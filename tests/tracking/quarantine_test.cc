@@ -9,31 +9,31 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-void Show(Quarantine* quarantine, MapPointId id, int num_frames) {
-  for (int i = 0; i < num_frames; ++i) quarantine->ShownOnMovingObject(id);
+void Refute(Quarantine* quarantine, MapPointId id, int num_frames) {
+  for (int i = 0; i < num_frames; ++i) quarantine->Refute(id);
 }
 
 TEST(Quarantine, CondemnsAfterEnoughFramesAndOnce) {
   Quarantine quarantine;
-  Show(&quarantine, MapPointId(7), Quarantine::kMinFrames - 1);
+  Refute(&quarantine, MapPointId(7), Quarantine::kMinFrames - 1);
   EXPECT_THAT(quarantine.TakeCondemned(), IsEmpty());
-  Show(&quarantine, MapPointId(7), 1);
+  Refute(&quarantine, MapPointId(7), 1);
   EXPECT_THAT(quarantine.TakeCondemned(), ElementsAre(MapPointId(7)));
   EXPECT_THAT(quarantine.TakeCondemned(), IsEmpty());
 }
 
 TEST(Quarantine, APointFoundStaticStartsAnew) {
   Quarantine quarantine;
-  Show(&quarantine, MapPointId(7), Quarantine::kMinFrames - 1);
+  Refute(&quarantine, MapPointId(7), Quarantine::kMinFrames - 1);
   quarantine.FoundStatic(MapPointId(7));
-  Show(&quarantine, MapPointId(7), Quarantine::kMinFrames - 1);
+  Refute(&quarantine, MapPointId(7), Quarantine::kMinFrames - 1);
   EXPECT_THAT(quarantine.TakeCondemned(), IsEmpty());
 }
 
 TEST(Quarantine, PointsAreCountedApartAndComeOutInOrder) {
   Quarantine quarantine;
-  for (const uint32_t id : {9u, 2u, 5u}) Show(&quarantine, MapPointId(id), Quarantine::kMinFrames);
-  Show(&quarantine, MapPointId(3), Quarantine::kMinFrames - 1);
+  for (const uint32_t id : {9u, 2u, 5u}) Refute(&quarantine, MapPointId(id), Quarantine::kMinFrames);
+  Refute(&quarantine, MapPointId(3), Quarantine::kMinFrames - 1);
   EXPECT_THAT(quarantine.TakeCondemned(), ElementsAre(MapPointId(2), MapPointId(5), MapPointId(9)));
 }
 

@@ -23,7 +23,9 @@ class LocalMapTracker {
   struct Result {
     int num_inliers = 0;
     KeyFrameId reference;  // the keyframe that shares most points with the frame; invalid: none does
-    std::vector<MapPointId> on_moving;  // local points that a moving object shows, by the frame's first pose
+    // Local points, by the frame's first pose:
+    std::vector<MapPointId> on_moving;     // a moving object shows them
+    std::vector<MapPointId> seen_through;  // the frame sees what is behind them
   };
   /// frame must have a first pose and first points. Counts what was visible and what was found; what moving
   /// objects hide is neither looked for nor counted.
@@ -32,7 +34,7 @@ class LocalMapTracker {
  private:
   std::vector<KeyFrameId> LocalKeyFrames(const MapData& map, const Frame& frame) const;
   void CollectCandidates(const MapData& map, const Frame& frame, const std::vector<KeyFrameId>& keyframes,
-                         const MovingRegion& moving, std::vector<MapPointId>* on_moving);
+                         const MovingRegion& moving, Result* result);
   void MatchCandidates(Frame* frame, PointCounter* counter);
 
   const Map& map_;

@@ -8,11 +8,15 @@
 
 namespace orbslam {
 
-/// The part of a frame that moving objects cover, asked for in undistorted pixels and camera coordinates.
+/// What a frame says of places in space, where objects move: asked for in camera coordinates, metres.
 class MovingRegion {
  public:
-  /// mask: CV_8UC1, non-zero on moving objects, or empty: nothing moves. depth_m: CV_32FC1, metres, 0: none.
-  /// Both of the raw image's size, and not copied: they must not change.
+  /// px. How far masks and depth may be off: both are coarser than the picture, and masks are widened, so
+  /// that their rim shows what is behind.
+  static constexpr int kRimPx = 8;
+
+  /// mask: CV_8UC1, non-zero on moving objects, or empty: nothing moves. depth_m: CV_32FC1, metres, 0: none;
+  /// or empty. Both of the raw image's size, and not copied: they must not change.
   MovingRegion(const Sensor& sensor, const cv::Mat& mask, const cv::Mat& depth_m);
 
   bool IsEmpty() const { return mask_.empty(); }
@@ -21,9 +25,13 @@ class MovingRegion {
   /// The moving object itself is at x_camera: the pixel is well inside of the mask, and its depth is the
   /// point's within 3 sigma of the depth camera, and of what one pixel changes on a steep surface.
   bool Shows(const Eigen::Vector3d& x_camera) const;
+  /// Nothing is at x_camera any more: for kRimPx around, off the mask, all measured depths lie clearly
+  /// behind.
+  bool SeesThrough(const Eigen::Vector3d& x_camera) const;
 
  private:
   cv::Point RawPixel(const Eigen::Vector3d& x_camera) const;
+  double ToleranceM(double depth_m) const;
 
   const Sensor* sensor_;
   cv::Mat mask_, core_, depth_m_;

@@ -8,15 +8,15 @@
 
 namespace orbslam {
 
-/// Finds the map points that were made on something before it was known to move. A point that a moving object
-/// shows in several frames, while no frame finds it off the mask, is condemned.
+/// Finds the map points that were made on something before it was known to move. A point that several frames
+/// refute, while none finds it on what does not move, is condemned.
 class Quarantine {
  public:
-  /// Frames that must show a point on a moving object: one may be a wrong mask, or a chance meeting of
-  /// depths.
+  /// Frames that must refute a point: one may be a wrong mask, or a chance meeting of depths.
   static constexpr int kMinFrames = 3;
 
-  void ShownOnMovingObject(MapPointId id);
+  /// A frame shows the point on a moving object, or nothing where it should be.
+  void Refute(MapPointId id);
   /// Found on what does not move: the point starts anew.
   void FoundStatic(MapPointId id) { frames_.erase(id); }
 
