@@ -91,5 +91,18 @@ TEST(SystemThreads, LoopIsClosedBesideTracking) {
   EXPECT_EQ(NumSavedPoses(system), Round().size());
 }
 
+TEST(SystemThreads, ShutdownCutsAGlobalBundleAdjustmentShort) {
+  System system = MakeSystem(kDataset);
+  int num_frames = 0;
+  while (num_frames < Round().size() && system.counts().loops == 0) {
+    EXPECT_EQ(TrackFrames(Round(), num_frames, num_frames + 1, &system), 1);
+    ++num_frames;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  system.Shutdown();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, ShutdownLimit());
+  EXPECT_EQ(NumSavedPoses(system), num_frames);
+}
+
 }  // namespace
 }  // namespace orbslam::test

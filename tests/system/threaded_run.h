@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
+
 #include "system/synthetic_run.h"
 #include "util/temp_dir.h"
 
@@ -28,6 +30,15 @@ inline int NumSavedPoses(const System& system) {
   const TempDir dir;
   EXPECT_TRUE(system.SaveTrajectory(dir.Path("camera.txt")).ok());
   return static_cast<int>(ReadTrajectory(dir.Path("camera.txt")).value().size());
+}
+
+/// Shutdown promises two seconds; a sanitizer may take several times as long for the same work.
+inline std::chrono::duration<double> ShutdownLimit() {
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  return std::chrono::seconds(10);
+#else
+  return std::chrono::seconds(2);
+#endif
 }
 
 }  // namespace orbslam::test
