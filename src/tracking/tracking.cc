@@ -183,10 +183,14 @@ bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
     return false;
   reference_ = result.reference;
-  for (const MapPointId id : result.on_moving) quarantine_.Refute(id);
-  RefuteSeenThrough(result.seen_through, *frame);
-  for (const MapPointId id : frame->points) quarantine_.FoundStatic(id);
+  if (makes_keyframes_) JudgePoints(result, *frame);
   return true;
+}
+
+void Tracking::JudgePoints(const LocalMapTracker::Result& result, const Frame& frame) {
+  for (const MapPointId id : result.on_moving) quarantine_.Refute(id);
+  RefuteSeenThrough(result.seen_through, frame);
+  for (const MapPointId id : frame.points) quarantine_.FoundStatic(id);
 }
 
 /// Depth is taken up to half a frame earlier or later than colour: what shifts by more than a rim from frame

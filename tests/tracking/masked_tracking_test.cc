@@ -137,7 +137,11 @@ TEST_F(MaskedTrackingTest, InLocalizationModeNothingIsErased) {
   const int num_points = map_.Read()->num_points();
   tracking_.SetLocalizationMode(true);
   for (int i = 0; i < 6; ++i) ShowMasked(100);
+  for (int i = 0; i < 6; ++i) Show(kNoBoard, {});
   EXPECT_EQ(map_.Read()->num_points(), num_points);
+  tracking_.SetLocalizationMode(false);
+  Show(kNoBoard, {});
+  EXPECT_GE(map_.Read()->num_points(), num_points) << "what was seen in the meantime does not count";
 }
 
 TEST_F(MaskedTrackingTest, AMaskThatLeavesTooLittleIsNotUsedAndSaysSo) {

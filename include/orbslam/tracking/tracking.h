@@ -56,6 +56,7 @@ class Tracking {
   bool FindFirstPose(Frame* frame);
   bool TakeBetterPose(Frame* frame);
   bool RefineOnLocalMap(Frame* frame, FrameReport* report);
+  void JudgePoints(const LocalMapTracker::Result& result, const Frame& frame);
   void RefuteSeenThrough(const std::vector<MapPointId>& seen_through, const Frame& frame);
   void FollowMapCorrections();
   KeyFrameEvidence GatherEvidence(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
