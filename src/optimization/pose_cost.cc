@@ -117,15 +117,21 @@ inline void PoseCost::Accumulate(const Observation& o, const State& state, PoseN
   }
 }
 
+PoseNormalEquations PoseCost::Sum(const State& state) const {
+  PoseNormalEquations sums;
+  for (const Observation& o : observations_) {
+    if (o.is_active) Accumulate(o, state, &sums);
+  }
+  return sums;
+}
+
+Matrix6d PoseCost::Information(const State& state) const { return Sum(state).Hessian(); }
+
 bool PoseCost::operator()(const double* parameters, double* residuals, double* jacobian) const {
   const Vector6d x = Eigen::Map<const Vector6d>(parameters);
   const State state = At(x);
   if (jacobian != nullptr) {
-    PoseNormalEquations sums;
-    for (const Observation& o : observations_) {
-      if (o.is_active) Accumulate(o, state, &sums);
-    }
-    sums.WriteCompressed(So3LeftJacobian(x.head<3>()), residuals, jacobian);
+    Sum(state).WriteCompressed(So3LeftJacobian(x.head<3>()), residuals, jacobian);
     return true;
   }
   double cost = 0, weight;

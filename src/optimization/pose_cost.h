@@ -52,6 +52,9 @@ class PoseCost {
   double Chi2(int i, const State& state) const;
   bool IsWithinGate(int i, const State& state) const { return Chi2(i, state) <= observations_[i].max_chi2; }
 
+  /// Inverse covariance of (w, t) at a state, of what is active.
+  Matrix6d Information(const State& state) const;
+
   /// residuals: 7; jacobian: 7 x 6 column-major or null.
   bool operator()(const double* parameters, double* residuals, double* jacobian) const;
 
@@ -69,6 +72,7 @@ class PoseCost {
   Projected Project(const Observation& o, const State& state) const;
   double Loss(const Observation& o, const Projected& p, double* weight) const;
   void Accumulate(const Observation& o, const State& state, PoseNormalEquations* sums) const;
+  PoseNormalEquations Sum(const State& state) const;
 
   StereoIntrinsics intrinsics_;
   Rigid3d prior_;

@@ -7,6 +7,12 @@
 
 namespace orbslam {
 
+Matrix6d PoseNormalEquations::Hessian() const {
+  Matrix6d hessian;
+  hessian << rotation, mixed, mixed.transpose(), translation;
+  return hessian;
+}
+
 void PoseNormalEquations::WriteCompressed(const Eigen::Matrix3d& left_jacobian, double* residuals,
                                           double* jacobian) const {
   Matrix6d hessian;

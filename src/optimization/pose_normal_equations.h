@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 
+#include "orbslam/geometry/rigid3.h"
+
 namespace orbslam {
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// Sums the normal equations of many residuals that depend on one pose through points y rotated by it:
 /// d residual = J (d_w x y + d_t). A sum of 27 numbers replaces the tall Jacobian.
@@ -28,6 +28,9 @@ struct PoseNormalEquations {
     gradient_w += y.cross(jtr);
     gradient_t += jtr;
   }
+
+  /// J'WJ of all, by (d_w, d_t).
+  Matrix6d Hessian() const;
 
   /// The same least-squares problem in 7 residuals and 6 parameters (w, t): J'J, J'r and r'r are those of the
   /// sums once d_w is d_w = left_jacobian * d_parameters. Six rows are a square root of the Hessian, the

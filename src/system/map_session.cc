@@ -21,6 +21,7 @@ MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode m
       tracking_(sensor, settings.orb, settings.tracking, settings.keyframes, places_ ? &*places_ : nullptr,
                 &map_),
       mapping_(sensor, settings.mapping, &map_),
+      trajectory_(settings.motion),
       loop_stage_(
           "loop_closing", kMaxWaitingLoops,
           [this](const KeyFrameMapped& message) { loop_closing_->Process(message); }, mode.OfStages()),

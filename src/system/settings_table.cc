@@ -116,6 +116,21 @@ Rows MappingRows(MappingOptions* mapping) {
   };
 }
 
+Rows MotionRows(MotionPrior* motion) {
+  return {
+      {"Trajectory.acceleration",
+       &motion->acceleration_mps2,
+       kOptional,
+       {0, 1000},
+       "m/s^2, as the camera's usually is, by which trajectories are smoothed; 0: they are not"},
+      {"Trajectory.angularAcceleration",
+       &motion->angular_acceleration_radps2,
+       kOptional,
+       {0, 1000},
+       "rad/s^2, likewise"},
+  };
+}
+
 Rows LoopRows(bool* closes_loops, LoopOptions* loops) {
   return {
       {"LoopClosing.enabled", closes_loops, kOptional, {}, "needs a vocabulary"},
@@ -252,6 +267,7 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(OrbRows(&settings->orb));
   add(TrackingRows(&settings->tracking, &settings->keyframes));
   add(MappingRows(&settings->mapping));
+  add(MotionRows(&settings->motion));
   add(LoopRows(&settings->closes_loops, &settings->loops));
   DynamicDetectorOptions& detector = settings->detector;
   add(DetectorRows(&settings->detects_motion, &detector));

@@ -11,25 +11,33 @@ namespace orbslam {
 void TrajectoryLog::Add(const RgbdImage& image, const FrameReport& report) {
   if (!report.world_from_camera) return;
   ORBSLAM_CHECK(entries_.empty() || entries_.back().frame < image.id);
-  entries_.push_back({image.id,
+  entries_.push_back({image.id, image.timestamp_s,
                       image.timestamp_text.empty() ? FormatFixed(image.timestamp_s, 6) : image.timestamp_text,
-                      report.reference, report.camera_from_reference});
+                      report.reference, report.camera_from_reference, report.pose_information});
 }
 
 void TrajectoryLog::Revise(const RevisedPose& revised) {
   const auto entry = std::ranges::lower_bound(entries_, revised.frame, {}, &Entry::frame);
   ORBSLAM_CHECK(entry != entries_.end() && entry->frame == revised.frame);
   entry->camera_from_reference = revised.camera_from_reference;
+  entry->pose_information = revised.pose_information;
 }
 
 std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
+  std::vector<UncertainPose> uncertain;
   std::vector<StampedPose> poses;
-  const auto guard = map.Read();
-  for (const Entry& entry : entries_) {
-    const auto reference_from_world = guard->CameraFromWorld(entry.reference);
-    if (!reference_from_world) continue;
-    poses.push_back({entry.timestamp_text, Inverse(entry.camera_from_reference * *reference_from_world)});
+  {
+    const auto guard = map.Read();
+    for (const Entry& entry : entries_) {
+      const auto reference_from_world = guard->CameraFromWorld(entry.reference);
+      if (!reference_from_world) continue;
+      const Rigid3d world_from_camera = Inverse(entry.camera_from_reference * *reference_from_world);
+      uncertain.push_back({entry.timestamp_s, world_from_camera, entry.pose_information});
+      poses.push_back({entry.timestamp_text, world_from_camera});
+    }
   }
+  SmoothTrajectory(prior_, &uncertain);
+  for (size_t i = 0; i < poses.size(); ++i) poses[i].world_from_camera = uncertain[i].world_from_camera;
   return poses;
 }
 

@@ -36,6 +36,7 @@ int RefinePose(const Map& map, const Sensor& sensor, Frame* frame) {
   const auto [problem, keypoints] = GatherPoseProblem(map, sensor, frame);
   const PoseResult result = OptimizePose(problem);
   frame->camera_from_world = result.camera_from_world;
+  frame->pose_information = result.information;
   ForgetOutliers(result, keypoints, frame);
   return result.num_inliers;
 }

@@ -42,7 +42,8 @@ std::optional<RevisedPose> PoseReviser::Revise(Kept kept) const {
   const int num_left = RefinePose(map_, sensor_, &kept.frame);
   const bool map_has_moved = map_.Read()->epoch() != epoch;  // and not the reference's pose that we took
   if (map_has_moved || num_left < kMinLeft * num_first) return std::nullopt;
-  return RevisedPose{kept.frame.id, kept.frame.camera_from_world * Inverse(reference_from_world)};
+  return RevisedPose{kept.frame.id, kept.frame.camera_from_world * Inverse(reference_from_world),
+                     kept.frame.pose_information};
 }
 
 }  // namespace orbslam

@@ -99,7 +99,7 @@ void Tracking::Initialize(Frame* frame, FrameReport* report) {
   const auto num_with_depth = std::ranges::count_if(frame->features->depths_m, [](float z) { return z > 0; });
   if (num_with_depth < options_.min_initial_depth_points) return;
   InsertKeyFrame(frame, report);
-  report->num_matches = frame->NumPoints();
+  report->num_matches = RefinePose(*map_, sensor_, frame);  // as its points are: how well it is known
   state_ = TrackingState::kOk;
 }
 
@@ -258,6 +258,7 @@ void Tracking::Remember(Frame frame, FrameReport* report) {
   report->world_from_camera = Inverse(frame.camera_from_world);
   report->reference = reference_;
   report->camera_from_reference = last_from_reference_;
+  report->pose_information = frame.pose_information;
   if (options_.revision_delay_s > 0) reviser_.Keep(frame, reference_, last_from_reference_);
   last_ = std::move(frame);
 }

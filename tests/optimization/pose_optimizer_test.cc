@@ -82,6 +82,22 @@ TEST(PoseOptimizer, RepeatsBitForBit) {
   EXPECT_EQ(a.is_inlier, b.is_inlier);
 }
 
+// The error's square in units of what is said of it has as mean the number of its degrees of freedom.
+TEST(PoseOptimizer, SaysHowWellThePoseIsKnown) {
+  Rng rng(7);
+  constexpr int kTrials = 200;
+  double sum = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Truth truth;
+    const PoseResult result = OptimizePose(RandomProblem(30 + trial, 0.5 + 0.01 * trial, 0, &rng, &truth));
+    const Rigid3d error = result.camera_from_world * Inverse(truth.camera_from_world);
+    Vector6d motion;
+    motion << So3Log(error.rotation), error.translation;
+    sum += motion.dot(result.information * motion);
+  }
+  EXPECT_NEAR(sum / kTrials, 6, 1);
+}
+
 TEST(PoseOptimizer, TooFewObservationsLeaveThePrior) {
   Rng rng(4);
   for (int n = 0; n < 3; ++n) {
@@ -89,6 +105,7 @@ TEST(PoseOptimizer, TooFewObservationsLeaveThePrior) {
     const PoseProblem problem = RandomProblem(n, 0, 0, &rng, &truth);
     const PoseResult result = OptimizePose(problem);
     EXPECT_EQ(result.num_inliers, 0);
+    EXPECT_EQ(result.information, Matrix6d::Zero());
     EXPECT_EQ(result.camera_from_world.translation, problem.camera_from_world.translation);
   }
 }

@@ -26,7 +26,7 @@ class TrajectoryLogTest : public SyntheticMap {
 
   const Rigid3d reference_from_world_{So3Exp({0, 0, 0.3}), {0, 0.1, 0}};
   KeyFrameId reference_;
-  TrajectoryLog log_;
+  TrajectoryLog log_{MotionPrior{.acceleration_mps2 = 0}};
 };
 
 TEST_F(TrajectoryLogTest, PosesAreThoseRelativeToTheKeyFrame) {
@@ -35,11 +35,32 @@ TEST_F(TrajectoryLogTest, PosesAreThoseRelativeToTheKeyFrame) {
 }
 
 TEST_F(TrajectoryLogTest, ARevisedPoseReplacesTheFirst) {
-  log_.Revise({FrameId(1), PoseOf(7)});
+  log_.Revise({FrameId(1), PoseOf(7), Matrix6d::Identity()});
   ASSERT_EQ(log_.Camera(map_).size(), 3u);
   ExpectPose(0, PoseOf(0));
   ExpectPose(1, PoseOf(7));
   ExpectPose(2, PoseOf(2));
+}
+
+// By half a second's jump in the middle of a steady motion: a pose that is hardly known.
+TEST_F(TrajectoryLogTest, PosesAreSmoothAsFarAsTheyAreNotKnown) {
+  TrajectoryLog log{MotionPrior{}};
+  const auto add = [&](uint32_t i, const Rigid3d& pose, double information) {
+    FrameReport report{.id = FrameId(i), .timestamp_s = 0.1 * i, .reference = reference_};
+    report.world_from_camera = Rigid3d();
+    report.camera_from_reference = pose;
+    report.pose_information = information * Matrix6d::Identity();
+    log.Add({.id = FrameId(i), .timestamp_s = 0.1 * i}, report);
+  };
+  for (uint32_t i = 0; i < 7; ++i) add(i, PoseOf(i == 3 ? 3.4 : i), i == 3 ? 1 : 1e8);
+  const auto error_m = [&](int i, double place) {
+    const Rigid3d expected = Inverse(PoseOf(place) * reference_from_world_);
+    return (log.Camera(map_)[i].world_from_camera.translation - expected.translation).norm();
+  };
+  EXPECT_LT(error_m(3, 3), 0.005);
+  EXPECT_LT(error_m(2, 2), 0.005);
+  log.Revise({FrameId(3), PoseOf(3.4), 1e10 * Matrix6d::Identity()});
+  EXPECT_LT(error_m(3, 3.4), 0.01);
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 
 namespace orbslam {
 
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
 /// A rigid motion b_from_a: x_b = rotation * x_a + translation, so that c_from_a = c_from_b * b_from_a.
 /// rotation is a unit quaternion; translation in metres.
 struct Rigid3d {

@@ -32,6 +32,9 @@ struct PoseResult {
   Rigid3d camera_from_world;
   std::vector<char> is_inlier;  // one an observation
   int num_inliers = 0;
+  /// Inverse covariance of a small motion (w, t) of the camera's frame, x_camera -> Exp(w) x_camera + t, as
+  /// the inliers tell it; 1 / rad^2, 1 / m^2.
+  Matrix6d information = Matrix6d::Zero();
 };
 
 /// The pose that minimises the Huber-weighted reprojection error of fixed points, by Ceres' TinySolver. After

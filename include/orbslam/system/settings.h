@@ -11,6 +11,7 @@
 #include "orbslam/features/orb_extractor.h"
 #include "orbslam/loop/loop_options.h"
 #include "orbslam/mapping/mapping_options.h"
+#include "orbslam/optimization/trajectory_smoother.h"
 #include "orbslam/tracking/tracking_options.h"
 #include "orbslam/util/result.h"
 
@@ -26,6 +27,7 @@ struct Settings {
   TrackingOptions tracking;
   KeyFramePolicyOptions keyframes;
   MappingOptions mapping;
+  MotionPrior motion;
   bool closes_loops = true;
   LoopOptions loops;
   bool detects_motion = true;

@@ -6,20 +6,24 @@
 
 #include "orbslam/io/trajectory.h"
 #include "orbslam/map/map.h"
+#include "orbslam/optimization/trajectory_smoother.h"
 #include "orbslam/pipeline/messages.h"
 
 namespace orbslam {
 
 /// Remembers every tracked frame relative to a keyframe, so that trajectories benefit from all that the map
-/// learned later. Poses are world_from_camera at the colour image's time stamp.
+/// learned later; and what is known of how a camera moves makes them smooth. Poses are world_from_camera at
+/// the colour image's time stamp.
 class TrajectoryLog {
  public:
+  explicit TrajectoryLog(const MotionPrior& prior) : prior_(prior) {}
+
   /// Frames without a pose are not kept.
   void Add(const RgbdImage& image, const FrameReport& report);
   /// Of a frame that was added.
   void Revise(const RevisedPose& revised);
 
-  /// One pose a tracked frame.
+  /// One pose a tracked frame, smoothed.
   std::vector<StampedPose> Camera(const Map& map) const;
   /// One pose a keyframe that is still in the map.
   std::vector<StampedPose> KeyFrames(const Map& map) const;
@@ -29,10 +33,13 @@ class TrajectoryLog {
  private:
   struct Entry {
     FrameId frame;
+    double timestamp_s;
     std::string timestamp_text;
     KeyFrameId reference;
     Rigid3d camera_from_reference;
+    Matrix6d pose_information;
   };
+  const MotionPrior prior_;
   std::vector<Entry> entries_;  // ascending in frame
 };
 

@@ -17,7 +17,8 @@ struct FramePoseProblem {
 FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* frame);
 
 /// Optimises the frame's pose over the map points its keypoints show, and forgets the matches that turn out
-/// to be outliers or whose point is gone. Returns the number of matches left.
+/// to be outliers or whose point is gone. Says how well the pose is known then. Returns the number of matches
+/// left.
 int RefinePose(const Map& map, const Sensor& sensor, Frame* frame);
 
 /// The same without a prior and among many wrong matches: P3P with RANSAC, then refinement over what agrees.
