@@ -7,15 +7,15 @@
 #include <ceres/solver.h>
 
 #include <Eigen/Eigenvalues>
+#include <vector>
 
 #include "optimization/acceleration_cost.h"
 
 namespace orbslam {
 namespace {
 
-// Standard deviations from where on an acceleration costs linearly: a jump, as when the camera was lost,
-// stays.
-constexpr double kHuberWidth = 3;
+// Standard deviations from where on costs grow linearly.
+constexpr double kAccelerationWidth = 3, kPoseWidth = 2;
 
 /// A pose stays where it is but for what is not known of it. The motion of a camera's frame is its pose's
 /// correction in the world seen from that camera, with the opposite sign.
@@ -39,24 +39,24 @@ bool Solve(ceres::Problem* problem) {
 
 }  // namespace
 
-void SmoothTrajectory(const MotionPrior& prior, std::vector<UncertainPose>* poses) {
+void SmoothTrajectory(const MotionPrior& prior, std::span<UncertainPose> poses) {
   if (prior.acceleration_mps2 <= 0 || prior.angular_acceleration_radps2 <= 0) return;
-  std::vector<PoseCorrection> corrections(poses->size(), PoseCorrection{});
-  ceres::HuberLoss huber(kHuberWidth);
+  std::vector<PoseCorrection> corrections(poses.size(), PoseCorrection{});
+  ceres::HuberLoss acceleration_loss(kAccelerationWidth), pose_loss(kPoseWidth);
   ceres::Problem::Options options;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(options);
-  for (size_t i = 0; i < poses->size(); ++i)
-    problem.AddResidualBlock(PriorOf((*poses)[i]), nullptr, corrections[i].data());
-  for (size_t i = 2; i < poses->size(); ++i) {
-    const UncertainPose &a = (*poses)[i - 2], &b = (*poses)[i - 1], &c = (*poses)[i];
+  for (size_t i = 0; i < poses.size(); ++i)
+    problem.AddResidualBlock(PriorOf(poses[i]), &pose_loss, corrections[i].data());
+  for (size_t i = 2; i < poses.size(); ++i) {
+    const UncertainPose &a = poses[i - 2], &b = poses[i - 1], &c = poses[i];
     if (a.timestamp_s >= b.timestamp_s || b.timestamp_s >= c.timestamp_s) continue;
-    problem.AddResidualBlock(new AccelerationCost(prior, a, b, c), &huber, corrections[i - 2].data(),
-                             corrections[i - 1].data(), corrections[i].data());
+    problem.AddResidualBlock(new AccelerationCost(prior, a, b, c), &acceleration_loss,
+                             corrections[i - 2].data(), corrections[i - 1].data(), corrections[i].data());
   }
   if (!Solve(&problem)) return;
-  for (size_t i = 0; i < poses->size(); ++i) {
-    Rigid3d& pose = (*poses)[i].world_from_camera;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    Rigid3d& pose = poses[i].world_from_camera;
     const Eigen::Map<const Vector6d> correction(corrections[i].data());
     pose.rotation = (So3Exp(correction.head<3>()) * pose.rotation).normalized();
     pose.translation += correction.tail<3>();

@@ -9,11 +9,14 @@
 namespace orbslam {
 
 void TrajectoryLog::Add(const RgbdImage& image, const FrameReport& report) {
-  if (!report.world_from_camera) return;
+  if (!report.world_from_camera) {
+    ++stretch_;
+    return;
+  }
   ORBSLAM_CHECK(entries_.empty() || entries_.back().frame < image.id);
   entries_.push_back({image.id, image.timestamp_s,
                       image.timestamp_text.empty() ? FormatFixed(image.timestamp_s, 6) : image.timestamp_text,
-                      report.reference, report.camera_from_reference, report.pose_information});
+                      report.reference, report.camera_from_reference, report.pose_information, stretch_});
 }
 
 void TrajectoryLog::Revise(const RevisedPose& revised) {
@@ -24,21 +27,26 @@ void TrajectoryLog::Revise(const RevisedPose& revised) {
 }
 
 std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
-  std::vector<UncertainPose> uncertain;
-  std::vector<StampedPose> poses;
+  std::vector<const Entry*> placed;
+  std::vector<UncertainPose> poses;
   {
     const auto guard = map.Read();
     for (const Entry& entry : entries_) {
       const auto reference_from_world = guard->CameraFromWorld(entry.reference);
       if (!reference_from_world) continue;
       const Rigid3d world_from_camera = Inverse(entry.camera_from_reference * *reference_from_world);
-      uncertain.push_back({entry.timestamp_s, world_from_camera, entry.pose_information});
-      poses.push_back({entry.timestamp_text, world_from_camera});
+      poses.push_back({entry.timestamp_s, world_from_camera, entry.pose_information});
+      placed.push_back(&entry);
     }
   }
-  SmoothTrajectory(prior_, &uncertain);
-  for (size_t i = 0; i < poses.size(); ++i) poses[i].world_from_camera = uncertain[i].world_from_camera;
-  return poses;
+  for (size_t begin = 0, end = 0; begin < poses.size(); begin = end) {
+    while (end < poses.size() && placed[end]->stretch == placed[begin]->stretch) ++end;
+    SmoothTrajectory(prior_, std::span(poses).subspan(begin, end - begin));
+  }
+  std::vector<StampedPose> result;
+  for (size_t i = 0; i < poses.size(); ++i)
+    result.push_back({placed[i]->timestamp_text, poses[i].world_from_camera});
+  return result;
 }
 
 std::vector<StampedPose> TrajectoryLog::KeyFrames(const Map& map) const {

@@ -42,25 +42,36 @@ TEST_F(TrajectoryLogTest, ARevisedPoseReplacesTheFirst) {
   ExpectPose(2, PoseOf(2));
 }
 
-// By half a second's jump in the middle of a steady motion: a pose that is hardly known.
-TEST_F(TrajectoryLogTest, PosesAreSmoothAsFarAsTheyAreNotKnown) {
-  TrajectoryLog log{MotionPrior{}};
-  const auto add = [&](uint32_t i, const Rigid3d& pose, double information) {
+/// One frame a tenth of a second, of which the third jumps by a hand's breadth.
+class SmoothedLogTest : public TrajectoryLogTest {
+ protected:
+  void Add(uint32_t i, double place, double information) {
     FrameReport report{.id = FrameId(i), .timestamp_s = 0.1 * i, .reference = reference_};
     report.world_from_camera = Rigid3d();
-    report.camera_from_reference = pose;
+    report.camera_from_reference = PoseOf(place);
     report.pose_information = information * Matrix6d::Identity();
-    log.Add({.id = FrameId(i), .timestamp_s = 0.1 * i}, report);
-  };
-  for (uint32_t i = 0; i < 7; ++i) add(i, PoseOf(i == 3 ? 3.4 : i), i == 3 ? 1 : 1e8);
-  const auto error_m = [&](int i, double place) {
+    smoothed_.Add({.id = FrameId(i), .timestamp_s = 0.1 * i}, report);
+  }
+  double DistanceM(int index, double place) const {
     const Rigid3d expected = Inverse(PoseOf(place) * reference_from_world_);
-    return (log.Camera(map_)[i].world_from_camera.translation - expected.translation).norm();
-  };
-  EXPECT_LT(error_m(3, 3), 0.005);
-  EXPECT_LT(error_m(2, 2), 0.005);
-  log.Revise({FrameId(3), PoseOf(3.4), 1e10 * Matrix6d::Identity()});
-  EXPECT_LT(error_m(3, 3.4), 0.01);
+    return (smoothed_.Camera(map_)[index].world_from_camera.translation - expected.translation).norm();
+  }
+  TrajectoryLog smoothed_{MotionPrior{}};
+};
+
+TEST_F(SmoothedLogTest, PosesAreSmoothAsFarAsTheyAreNotKnown) {
+  for (uint32_t i = 0; i < 7; ++i) Add(i, i == 3 ? 3.4 : i, i == 3 ? 1 : 1e8);
+  EXPECT_LT(DistanceM(3, 3), 0.005);
+  EXPECT_LT(DistanceM(2, 2), 0.005);
+  smoothed_.Revise({FrameId(3), PoseOf(3.4), 1e10 * Matrix6d::Identity()});
+  EXPECT_LT(DistanceM(3, 3.4), 0.01);
+}
+
+TEST_F(SmoothedLogTest, WhereTheCameraIsFoundAgainIsNotDrawnToWhereItWasLost) {
+  for (uint32_t i = 0; i < 4; ++i) Add(i, 0, 1e4);
+  smoothed_.Add({.id = FrameId(4), .timestamp_s = 0.4}, {.id = FrameId(4), .timestamp_s = 0.4});
+  for (uint32_t i = 5; i < 9; ++i) Add(i, 3, 1e4);
+  for (int index = 0; index < 8; ++index) EXPECT_LT(DistanceM(index, index < 4 ? 0 : 3), 1e-3);
 }
 
 }  // namespace

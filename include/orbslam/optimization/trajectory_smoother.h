@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "orbslam/geometry/rigid3.h"
 
@@ -23,8 +23,8 @@ struct MotionPrior {
 
 /// Moves each pose, within what is known of it, so that the camera accelerates as cameras do: the most likely
 /// trajectory if acceleration is white noise (Rauch, Tung and Striebel, AIAA Journal 1965; over poses:
-/// Barfoot, Tong and Sarkka, RSS 2014), but for jumps, which cost linearly. poses: ascending in time. Where
-/// the numbers fail they stay as they are.
-void SmoothTrajectory(const MotionPrior& prior, std::vector<UncertainPose>* poses);
+/// Barfoot, Tong and Sarkka, RSS 2014). What is unlikely costs linearly: jolts, and poses found with wrong
+/// matches. poses: of one motion, ascending in time. Where the numbers fail they stay as they are.
+void SmoothTrajectory(const MotionPrior& prior, std::span<UncertainPose> poses);
 
 }  // namespace orbslam

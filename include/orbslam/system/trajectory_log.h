@@ -18,7 +18,7 @@ class TrajectoryLog {
  public:
   explicit TrajectoryLog(const MotionPrior& prior) : prior_(prior) {}
 
-  /// Frames without a pose are not kept.
+  /// Frames without a pose are not kept, but interrupt the motion.
   void Add(const RgbdImage& image, const FrameReport& report);
   /// Of a frame that was added.
   void Revise(const RevisedPose& revised);
@@ -38,9 +38,11 @@ class TrajectoryLog {
     KeyFrameId reference;
     Rigid3d camera_from_reference;
     Matrix6d pose_information;
+    int stretch;  // frames of one have followed one another with a pose each
   };
   const MotionPrior prior_;
   std::vector<Entry> entries_;  // ascending in frame
+  int stretch_ = 0;
 };
 
 }  // namespace orbslam
