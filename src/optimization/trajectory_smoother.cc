@@ -27,6 +27,16 @@ ceres::CostFunction* PriorOf(const UncertainPose& pose) {
   return new ceres::NormalPrior(root, ceres::Vector::Zero(6));
 }
 
+void AddPose(const UncertainPose& pose, ceres::LossFunction* loss, double* correction,
+             ceres::Problem* problem) {
+  problem->AddParameterBlock(correction, 6);
+  if (pose.information.allFinite()) {
+    problem->AddResidualBlock(PriorOf(pose), loss, correction);
+  } else {
+    problem->SetParameterBlockConstant(correction);
+  }
+}
+
 bool Solve(ceres::Problem* problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -46,8 +56,7 @@ void SmoothTrajectory(const MotionPrior& prior, std::span<UncertainPose> poses) 
   ceres::Problem::Options options;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(options);
-  for (size_t i = 0; i < poses.size(); ++i)
-    problem.AddResidualBlock(PriorOf(poses[i]), &pose_loss, corrections[i].data());
+  for (size_t i = 0; i < poses.size(); ++i) AddPose(poses[i], &pose_loss, corrections[i].data(), &problem);
   for (size_t i = 2; i < poses.size(); ++i) {
     const UncertainPose &a = poses[i - 2], &b = poses[i - 1], &c = poses[i];
     if (a.timestamp_s >= b.timestamp_s || b.timestamp_s >= c.timestamp_s) continue;

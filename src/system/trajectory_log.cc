@@ -2,6 +2,8 @@
 #include "orbslam/system/trajectory_log.h"
 
 #include <algorithm>
+#include <set>
+#include <span>
 
 #include "orbslam/util/check.h"
 #include "orbslam/util/text.h"
@@ -27,7 +29,28 @@ void TrajectoryLog::Revise(const RevisedPose& revised) {
 }
 
 std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
-  std::vector<const Entry*> placed;
+  std::vector<StampedPose> poses;
+  for (const Placed& placed : Place(map))
+    poses.push_back({placed.entry->timestamp_text, placed.world_from_camera});
+  return poses;
+}
+
+std::vector<StampedPose> TrajectoryLog::KeyFrames(const Map& map) const {
+  std::set<FrameId> frames;
+  {
+    const auto guard = map.Read();
+    for (const KeyFrame& keyframe : guard->KeyFrames()) frames.insert(keyframe.frame_id);
+  }
+  std::vector<StampedPose> poses;
+  for (const Placed& placed : Place(map)) {
+    if (frames.contains(placed.entry->frame))
+      poses.push_back({placed.entry->timestamp_text, placed.world_from_camera});
+  }
+  return poses;
+}
+
+std::vector<TrajectoryLog::Placed> TrajectoryLog::Place(const Map& map) const {
+  std::vector<Placed> all;
   std::vector<UncertainPose> poses;
   {
     const auto guard = map.Read();
@@ -36,28 +59,15 @@ std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
       if (!reference_from_world) continue;
       const Rigid3d world_from_camera = Inverse(entry.camera_from_reference * *reference_from_world);
       poses.push_back({entry.timestamp_s, world_from_camera, entry.pose_information});
-      placed.push_back(&entry);
+      all.push_back({&entry, Rigid3d()});
     }
   }
   for (size_t begin = 0, end = 0; begin < poses.size(); begin = end) {
-    while (end < poses.size() && placed[end]->stretch == placed[begin]->stretch) ++end;
+    while (end < poses.size() && all[end].entry->stretch == all[begin].entry->stretch) ++end;
     SmoothTrajectory(prior_, std::span(poses).subspan(begin, end - begin));
   }
-  std::vector<StampedPose> result;
-  for (size_t i = 0; i < poses.size(); ++i)
-    result.push_back({placed[i]->timestamp_text, poses[i].world_from_camera});
-  return result;
-}
-
-std::vector<StampedPose> TrajectoryLog::KeyFrames(const Map& map) const {
-  std::vector<StampedPose> poses;
-  const auto guard = map.Read();
-  for (const KeyFrame& keyframe : guard->KeyFrames()) {
-    const auto entry = std::ranges::lower_bound(entries_, keyframe.frame_id, {}, &Entry::frame);
-    if (entry == entries_.end() || entry->frame != keyframe.frame_id) continue;
-    poses.push_back({entry->timestamp_text, Inverse(keyframe.camera_from_world)});
-  }
-  return poses;
+  for (size_t i = 0; i < all.size(); ++i) all[i].world_from_camera = poses[i].world_from_camera;
+  return all;
 }
 
 }  // namespace orbslam

@@ -99,7 +99,8 @@ void Tracking::Initialize(Frame* frame, FrameReport* report) {
   const auto num_with_depth = std::ranges::count_if(frame->features->depths_m, [](float z) { return z > 0; });
   if (num_with_depth < options_.min_initial_depth_points) return;
   InsertKeyFrame(frame, report);
-  report->num_matches = RefinePose(*map_, sensor_, frame);  // as its points are: how well it is known
+  frame->pose_information.setConstant(std::numeric_limits<double>::infinity());  // the world is this camera
+  report->num_matches = frame->NumPoints();
   state_ = TrackingState::kOk;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "optimization/acceleration_cost.h"
 #include "optimization/numeric_jacobian.h"
@@ -159,10 +160,16 @@ TEST(TrajectorySmoother, AFewPosesAndEqualTimesAreNoMotion) {
   EXPECT_EQ(DistanceM(smoothed[6], poses[6]), 0);
 }
 
-TEST(TrajectorySmoother, UnusableNumbersLeaveEveryPose) {
-  Poses poses = Sample(SwingingAt, 10);
-  poses[4].information(0, 0) = std::nan("");
-  ExpectEqual(Smoothed(poses), poses, 0);
+TEST(TrajectorySmoother, AnExactPoseStaysAndTheOthersFollow) {
+  Rng rng(5);
+  const Poses truth = Sample(SteadyAt, 30);
+  Poses poses = Noisy(truth, &rng);
+  poses[0] = truth[0];
+  poses[0].information.setConstant(std::numeric_limits<double>::infinity());
+  const Poses smoothed = Smoothed(poses);
+  EXPECT_EQ(DistanceM(smoothed[0], truth[0]), 0);
+  EXPECT_EQ(AngleRad(smoothed[0], truth[0]), 0);
+  EXPECT_LT(RmsM(smoothed, truth), 0.6 * RmsM(poses, truth));
 }
 
 TEST(AccelerationCost, IsTheAccelerationInUnitsOfThePrior) {

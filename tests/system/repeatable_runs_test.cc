@@ -67,7 +67,6 @@ TEST(RepeatableRuns, LaterPosesAreTheTrajectorysAndLeaveTheMapAlone) {
   EXPECT_GT(num_changed(0, kSome), kSome / 2);
   EXPECT_GT(num_changed(a.size() - kSome, a.size()), kSome / 2);
   EXPECT_LT(AteM(revised.camera, Swings()), AteM(first.camera, Swings()));
-  EXPECT_EQ(Content(first.keyframes), Content(revised.keyframes));
   EXPECT_TRUE(Content(first.map) == Content(revised.map));
 }
 

@@ -67,6 +67,18 @@ TEST_F(SmoothedLogTest, PosesAreSmoothAsFarAsTheyAreNotKnown) {
   EXPECT_LT(DistanceM(3, 3.4), 0.01);
 }
 
+TEST_F(SmoothedLogTest, AKeyFramesPoseIsTheTrajectorys) {
+  for (uint32_t i = 0; i < 7; ++i) Add(i, i == 3 ? 3.4 : i, 1e4);
+  Frame frame = SeeAndKnow(reference_from_world_);
+  while (frame.id != FrameId(3)) frame = SeeAndKnow(reference_from_world_);
+  AddKeyFrame(&frame);  // besides that of frame 0
+  const std::vector<StampedPose> keyframes = smoothed_.KeyFrames(map_), camera = smoothed_.Camera(map_);
+  ASSERT_EQ(keyframes.size(), 2u);
+  EXPECT_EQ(keyframes[1].timestamp_text, camera[3].timestamp_text);
+  EXPECT_EQ(keyframes[1].world_from_camera.translation, camera[3].world_from_camera.translation);
+  EXPECT_GT(DistanceM(3, 3.4), 0.005);
+}
+
 TEST_F(SmoothedLogTest, WhereTheCameraIsFoundAgainIsNotDrawnToWhereItWasLost) {
   for (uint32_t i = 0; i < 4; ++i) Add(i, 0, 1e4);
   smoothed_.Add({.id = FrameId(4), .timestamp_s = 0.4}, {.id = FrameId(4), .timestamp_s = 0.4});

@@ -114,6 +114,18 @@ TEST_F(TrackingTest, BeginsWithTheFirstFrameThatHasDepth) {
   EXPECT_THAT(report.world_from_camera.value(), Rigid3dNear(Rigid3d(), 0));
 }
 
+// The first camera is the world; of the later ones it is known to less than a centimetre.
+TEST_F(TrackingTest, SaysHowWellEachPoseIsKnown) {
+  EXPECT_FALSE(Show(0).pose_information.allFinite());
+  for (int i = 1; i < 6; ++i) {
+    const FrameReport report = Show(i);
+    ASSERT_TRUE(report.pose_information.allFinite());
+    const Matrix6d covariance = report.pose_information.inverse();
+    EXPECT_GT(covariance.diagonal().minCoeff(), 0);
+    EXPECT_LT(covariance.diagonal().tail<3>().maxCoeff(), 1e-4);
+  }
+}
+
 TEST_F(TrackingTest, IsLostInTheDarkAndRecovers) {
   for (int i = 0; i < 15; ++i) Show(i);
   for (int i = 0; i < 4; ++i) {

@@ -11,7 +11,7 @@ namespace orbslam {
 struct UncertainPose {
   double timestamp_s = 0;
   Rigid3d world_from_camera;
-  Matrix6d information = Matrix6d::Zero();  // PoseResult's
+  Matrix6d information = Matrix6d::Zero();  // PoseResult's; not finite: it is exact, and stays
 };
 
 /// How a camera accelerates: standard deviation, each axis. Carried by hand, as in TUM's freiburg1: 0.4 to

@@ -25,7 +25,7 @@ class TrajectoryLog {
 
   /// One pose a tracked frame, smoothed.
   std::vector<StampedPose> Camera(const Map& map) const;
-  /// One pose a keyframe that is still in the map.
+  /// Those of them that are keyframes still in the map.
   std::vector<StampedPose> KeyFrames(const Map& map) const;
 
   int num_poses() const { return static_cast<int>(entries_.size()); }
@@ -40,6 +40,12 @@ class TrajectoryLog {
     Matrix6d pose_information;
     int stretch;  // frames of one have followed one another with a pose each
   };
+  struct Placed {
+    const Entry* entry;
+    Rigid3d world_from_camera;
+  };
+  std::vector<Placed> Place(const Map& map) const;
+
   const MotionPrior prior_;
   std::vector<Entry> entries_;  // ascending in frame
   int stretch_ = 0;
