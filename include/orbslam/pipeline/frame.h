@@ -17,7 +17,7 @@ struct Frame {
   std::shared_ptr<const FrameFeatures> features;
   Rigid3d camera_from_world;
   std::vector<MapPointId> points;  // one a keypoint; invalid: none
-  Matrix6d pose_information = Matrix6d::Zero();  // PoseResult's
+  Matrix6d pose_information = Matrix6d::Zero();  // UncertainPose's
 
   int NumPoints() const;
 };

@@ -58,7 +58,7 @@ using MaskOfFrame = std::function<DynamicMask(const Rigid3d& now_from_last)>;
 struct RevisedPose {
   FrameId frame;
   Rigid3d camera_from_reference;
-  Matrix6d pose_information;  // PoseResult's
+  Matrix6d pose_information;  // UncertainPose's
 };
 
 /// What Tracking says of a frame.
@@ -69,7 +69,7 @@ struct FrameReport {
   std::optional<Rigid3d> world_from_camera;  // only if state is kOk
   KeyFrameId reference;           // likewise; the keyframe it is best tied to, and the pose relative to it:
   Rigid3d camera_from_reference;  // what trajectories are made of, since keyframes are refined later
-  Matrix6d pose_information = Matrix6d::Zero();  // PoseResult's
+  Matrix6d pose_information = Matrix6d::Zero();  // UncertainPose's: as far as its matches tell
   double tracking_s = 0;          // wall time from the image to the pose
   double tracking_cpu_s = 0;      // CPU time of the calling thread in it
   int num_keypoints = 0;          // described: none on a moving object

@@ -62,8 +62,9 @@ class System {
   void ActivateLocalizationMode();
   void DeactivateLocalizationMode();
 
-  /// All tracked frames of the largest map, with the latest estimate of each, to `path`; those of each
-  /// further map, whose world frame is another, to path with _2, _3, ... before its extension. TUM format.
+  /// All tracked frames of the largest map, with the latest estimate of each, smoothed, to `path`; those of
+  /// each further map, whose world frame is another, to path with _2, _3, ... before its extension. TUM
+  /// format.
   Status SaveTrajectory(const std::string& path) const;
   /// The same for keyframes.
   Status SaveKeyFrameTrajectory(const std::string& path) const;
