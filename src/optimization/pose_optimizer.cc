@@ -55,7 +55,6 @@ PoseResult OptimizePose(const PoseProblem& problem, const PoseOptimizerOptions& 
                        [&cost](const PoseCost::State& state) { return Reclassify(state, &cost); });
   result.camera_from_world = cost.PoseAt(parameters);
   result.information = cost.Information(cost.At(parameters));
-  result.information = cost.Information(cost.At(parameters));
   for (int i = 0; i < cost.NumObservations(); ++i) {
     result.is_inlier[i] = cost.IsActive(i);
     result.num_inliers += cost.IsActive(i);
