@@ -2,7 +2,6 @@
 #include "full_detector.h"
 
 #include <algorithm>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "depthless_growth.h"
@@ -23,7 +22,7 @@ FullDetector::FullDetector(const PinholeCamera& camera, const DynamicDetectorOpt
       reducer_(camera),
       history_(reducer_.grids().cell, options.references, camera.readout_s),
       motion_estimator_(reducer_.grids(), options.camera_motion),
-      evidence_(MakeEvidence(options.fusion)) {}
+      cluster_judge_(options.fusion, options.histogram) {}
 
 DynamicMask FullDetector::Process(const RgbdImage& image) {
   DynamicMask result;
@@ -115,41 +114,18 @@ void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,
                                  Judgement* judgement) const {
   const Segmentation& segmentation = judgement->segmentation;
-  const std::vector<ClusterFacts> facts =
-      GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->flows);
-  std::vector<float> log_odds;
-  for (const ClusterFacts& cluster : facts)
-    log_odds.push_back(FuseEvidence(evidence_, cluster, options_.fusion));
-  judgement->cluster_motions.resize(facts.size());
-  if (window.IsFull() && judgement->is_trusted) AskHistogram(window, facts, log_odds, judgement);
-
+  const bool can_ask = window.IsFull() && judgement->is_trusted;
+  judgement->verdicts = cluster_judge_.Judge(
+      segmentation, GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->flows),
+      can_ask ? &window : nullptr, judgement->motion.corners);
   judgement->moving = cv::Mat1b::zeros(frame.depth_m.size());
   judgement->log_odds = cv::Mat1f(frame.depth_m.size(), -1.f);
-  for (size_t c = 0; c < facts.size(); ++c)
+  for (size_t c = 0; c < judgement->verdicts.size(); ++c)
     for (const int cell : segmentation.clusters[c].cells) {
-      judgement->log_odds(cell) = std::clamp(log_odds[c], kMinLogOdds, kMaxLogOdds);
-      if (log_odds[c] > 0) judgement->moving(cell) = 255;
+      const float log_odds = judgement->verdicts[c].log_odds;
+      judgement->log_odds(cell) = std::clamp(log_odds, kMinLogOdds, kMaxLogOdds);
+      if (log_odds > 0) judgement->moving(cell) = 255;
     }
-}
-
-/// The largest undecided clusters are decided by it; it gives the largest moving ones their velocity.
-void FullDetector::AskHistogram(const HistogramWindow& window, std::span<const ClusterFacts> facts,
-                                std::span<float> log_odds, Judgement* judgement) const {
-  std::vector<int> order(facts.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return facts[a].num_cells > facts[b].num_cells; });
-  int asked = 0;
-  for (const int c : order) {
-    if (facts[c].num_cells < options_.histogram.min_cells || asked >= options_.histogram.max_clusters) break;
-    const bool decides = options_.fusion.use_histogram && std::abs(log_odds[c]) < options_.fusion.undecided;
-    if (!decides && !(options_.histogram.use_velocity && log_odds[c] > 0)) continue;
-    const ClusterMotion motion =
-        window.Motion(judgement->segmentation.clusters[c], judgement->motion.corners);
-    judgement->cluster_motions[c] = motion;
-    if (decides) log_odds[c] += HistogramLogOdds(motion.ratio / kPersistentTau, options_.fusion);
-    ++asked;
-  }
 }
 
 void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
@@ -203,10 +179,10 @@ void FullDetector::Report(const WorkingFrame& frame, const Judgement& judgement,
       tracker_.Update(grids.cell, grids.cell_step * grids.cell_step, judgement.moving, frame,
                       judgement.log_odds, judgement.shift);
   std::vector<int> largest(labelled.objects.size(), 0);  // cells of the cluster that stands for the object
-  for (size_t c = 0; c < judgement.cluster_motions.size(); ++c) {
+  for (size_t c = 0; c < judgement.verdicts.size(); ++c) {
     const std::vector<int>& cells = judgement.segmentation.clusters[c].cells;
     const int index = labelled.object_of_cell(cells.front());
-    const ClusterMotion& motion = judgement.cluster_motions[c];
+    const ClusterMotion& motion = judgement.verdicts[c].motion;
     if (index < 0 || judgement.log_odds(cells.front()) <= 0 || motion.direction.isZero()) continue;
     if (static_cast<int>(cells.size()) <= largest[index]) continue;
     largest[index] = static_cast<int>(cells.size());

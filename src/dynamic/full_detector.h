@@ -7,7 +7,7 @@
 
 #include "background_view.h"
 #include "camera_motion.h"
-#include "evidence.h"
+#include "cluster_judge.h"
 #include "free_space.h"
 #include "histogram_evidence.h"
 #include "object_tracker.h"
@@ -35,9 +35,9 @@ class FullDetector {
     cv::Mat1f carried;        // log-odds of the last frame, there
     FreeSpaceVotes votes;
     Segmentation segmentation;
-    std::vector<ClusterMotion> cluster_motions;  // of each cluster; zero: not asked
-    cv::Mat1f log_odds;                          // of each cell: it moves
-    cv::Mat1b moving;                            // the mask, with its rim
+    std::vector<ClusterVerdict> verdicts;  // of each cluster
+    cv::Mat1f log_odds;                    // of each cell: it moves
+    cv::Mat1b moving;                      // the mask, with its rim
   };
 
   /// Why there is nothing to compare with a frame of that time; empty if there is.
@@ -49,8 +49,6 @@ class FullDetector {
   void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
             Judgement* judgement) const;
   void JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window, Judgement* judgement) const;
-  void AskHistogram(const HistogramWindow& window, std::span<const ClusterFacts> facts,
-                    std::span<float> log_odds, Judgement* judgement) const;
   void JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                       Judgement* judgement) const;
   void Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result);
@@ -61,7 +59,7 @@ class FullDetector {
   SceneHistory history_;
   CameraMotionEstimator motion_estimator_;
   ObjectTracker tracker_;
-  std::vector<std::unique_ptr<Evidence>> evidence_;
+  ClusterJudge cluster_judge_;
   cv::Mat1f log_odds_;                             // of the last frame's cells
   int untrusted_frames_ = 0, covered_frames_ = 0;  // in a row
 };

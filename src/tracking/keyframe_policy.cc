@@ -5,6 +5,23 @@
 
 namespace orbslam {
 
+KeyFrameEvidence GatherKeyFrameEvidence(const Sensor& sensor, const MapData& map, const Frame& frame,
+                                        KeyFrameId reference) {
+  KeyFrameEvidence evidence;
+  const double close_limit_m = sensor.depth.CloseLimitM(sensor.camera.fx);
+  for (int i = 0; i < frame.features->size(); ++i) {
+    const float depth_m = frame.features->depths_m[i];
+    if (depth_m <= 0 || depth_m > close_limit_m) continue;
+    ++(frame.points[i].IsValid() ? evidence.num_tracked_close : evidence.num_untracked_close);
+  }
+  for (const MapPointId id : map.Find(map.Resolve(reference))->points) {
+    if (!id.IsValid()) continue;
+    ++evidence.num_reference_points;
+    evidence.num_shared_points += map.Find(id)->NumObservations() > 1;
+  }
+  return evidence;
+}
+
 bool NeedsKeyFrame(const KeyFrameEvidence& evidence, const KeyFramePolicyOptions& options) {
   const bool lacks_close = evidence.num_tracked_close < options.min_tracked_close &&
                            evidence.num_untracked_close > options.min_untracked_close;

@@ -2,6 +2,7 @@
 #include "orbslam/tracking/tracking.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "orbslam/tracking/keyframe_creator.h"
@@ -22,6 +23,8 @@ Tracking::Tracking(const Sensor& sensor, const OrbExtractorOptions& orb, const T
       local_map_tracker_(*map, sensor_, options_),
       relocalizer_(*map, places, sensor_, RelocalizerOptions()),
       reviser_(*map, sensor_),
+      point_judge_(sensor_, map),
+      doubt_(options_),
       moving_(sensor_, {}, {}) {
   if (map->Read()->num_keyframes() > 0) state_ = TrackingState::kLost;
 }
@@ -54,7 +57,7 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
   }
   report->moving = AskForMask(image.timestamp_s, mask_of_frame);
   OrbFeatures raw = Describe(report->moving.mask);
-  NoteDoubt(report->moving, image.timestamp_s);
+  doubt_.Note(report->moving, image.timestamp_s);
   is_mask_unused_ =
       raw.num_dropped > 0 && static_cast<int>(raw.keypoints.size()) < options_.min_unmasked_keypoints;
   if (is_mask_unused_) {
@@ -71,15 +74,6 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
   std::vector<MapPointId> points(features.size());
   return {image.id, image.timestamp_s, std::make_shared<const FrameFeatures>(std::move(features)), Rigid3d(),
           std::move(points)};
-}
-
-/// Where something filled the picture a moment ago, and nobody can tell now what moves, it still may for a
-/// while.
-void Tracking::NoteDoubt(const DynamicMask& moving, double timestamp_s) {
-  if (moving.MaskedShare() > options_.doubtful_share) last_filled_s_ = timestamp_s;
-  const bool cannot_tell = moving.mask.empty() && !moving.fail_open_reason.empty();
-  if (cannot_tell && timestamp_s - last_filled_s_ < options_.max_doubt_s)
-    doubt_ends_s_ = timestamp_s + options_.max_doubt_s;
 }
 
 OrbFeatures Tracking::Describe(const cv::Mat& mask) {
@@ -118,10 +112,8 @@ void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report
   if (!is_found) return;
   if (was_tracking) UpdateMotion(rolled, frame, report);
   if (!makes_keyframes_) return;
-  EraseCondemnedPoints();
-  if (!is_mask_unused_ && frame->timestamp_s > doubt_ends_s_ &&
-      WantsKeyFrame(*frame, report->num_matches, mapper))
-    InsertKeyFrame(frame, report);
+  point_judge_.EraseCondemned();
+  if (WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
 }
 
 /// With a rolling shutter the motion also says better than the prediction did where the keypoints belong, and
@@ -184,64 +176,17 @@ bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
     return false;
   reference_ = result.reference;
-  if (makes_keyframes_) JudgePoints(result, *frame);
+  if (makes_keyframes_) point_judge_.Judge(result, *frame, last_ ? &*last_ : nullptr);
   return true;
 }
 
-void Tracking::JudgePoints(const LocalMapTracker::Result& result, const Frame& frame) {
-  for (const MapPointId id : result.on_moving) quarantine_.Refute(id);
-  RefuteSeenThrough(result.seen_through, frame);
-  for (const MapPointId id : frame.points) quarantine_.FoundStatic(id);
-}
-
-/// Depth is taken up to half a frame earlier or later than colour: what shifts by more than a rim from frame
-/// to frame may have its depth elsewhere.
-void Tracking::RefuteSeenThrough(const std::vector<MapPointId>& seen_through, const Frame& frame) {
-  if (!last_) return;
-  const auto guard = map_->Read();
-  for (const MapPointId id : seen_through) {
-    const MapPoint* point = guard->Find(id);
-    if (point == nullptr) continue;
-    const Eigen::Vector3d x_camera = frame.camera_from_world * point->position_world;
-    const Eigen::Vector3d x_last = last_->camera_from_world * point->position_world;
-    const Eigen::Vector2d shift_px = sensor_.camera.Project(x_camera) - sensor_.camera.Project(x_last);
-    if (x_last.z() > 0 && shift_px.norm() < MovingRegion::kRimPx) quarantine_.Refute(id);
-  }
-}
-
-/// Points on something that turned out to move: made before anyone knew.
-void Tracking::EraseCondemnedPoints() {
-  const std::vector<MapPointId> condemned = quarantine_.TakeCondemned();
-  if (condemned.empty()) return;
-  const auto guard = map_->Write();
-  for (const MapPointId id : condemned) {
-    if (guard->Find(id) != nullptr) guard->EraseMapPoint(id);
-  }
-}
-
 bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const {
-  return mapper.accepts_keyframe && NeedsKeyFrame(GatherEvidence(frame, num_inliers, mapper), policy_);
-}
-
-KeyFrameEvidence Tracking::GatherEvidence(const Frame& frame, int num_inliers,
-                                          const MapperLoad& mapper) const {
-  KeyFrameEvidence evidence{.since_last_keyframe_s = frame.timestamp_s - last_keyframe_s_,
-                            .num_inliers = num_inliers,
-                            .is_mapper_idle = mapper.is_idle};
-  const double close_limit_m = sensor_.depth.CloseLimitM(sensor_.camera.fx);
-  for (int i = 0; i < frame.features->size(); ++i) {
-    const float depth_m = frame.features->depths_m[i];
-    if (depth_m <= 0 || depth_m > close_limit_m) continue;
-    ++(frame.points[i].IsValid() ? evidence.num_tracked_close : evidence.num_untracked_close);
-  }
-  const auto guard = map_->Read();
-  const KeyFrame* reference = guard->Find(guard->Resolve(reference_));
-  for (const MapPointId id : reference->points) {
-    if (!id.IsValid()) continue;
-    ++evidence.num_reference_points;
-    evidence.num_shared_points += guard->Find(id)->NumObservations() > 1;
-  }
-  return evidence;
+  if (!mapper.accepts_keyframe || is_mask_unused_ || doubt_.Holds(frame.timestamp_s)) return false;
+  KeyFrameEvidence evidence = GatherKeyFrameEvidence(sensor_, *map_->Read(), frame, reference_);
+  evidence.since_last_keyframe_s = frame.timestamp_s - last_keyframe_s_;
+  evidence.num_inliers = num_inliers;
+  evidence.is_mapper_idle = mapper.is_idle;
+  return NeedsKeyFrame(evidence, policy_);
 }
 
 void Tracking::InsertKeyFrame(Frame* frame, FrameReport* report) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "orbslam/map/map_data.h"
+#include "orbslam/pipeline/frame.h"
+#include "orbslam/pipeline/sensor.h"
 #include "orbslam/tracking/tracking_options.h"
 
 namespace orbslam {
@@ -15,6 +18,10 @@ struct KeyFrameEvidence {
   int num_untracked_close = 0;   // close keypoints without
   bool is_mapper_idle = true;
 };
+
+/// What frame and its reference keyframe say: the numbers of points. The rest is left as it is by default.
+KeyFrameEvidence GatherKeyFrameEvidence(const Sensor& sensor, const MapData& map, const Frame& frame,
+                                        KeyFrameId reference);
 
 /// Whether the frame becomes a keyframe. (ORB-SLAM2, Mur-Artal and Tardos 2017, section III-E.)
 bool NeedsKeyFrame(const KeyFrameEvidence& evidence, const KeyFramePolicyOptions& options);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -11,11 +10,12 @@
 #include "orbslam/tracking/frame_tracker.h"
 #include "orbslam/tracking/keyframe_policy.h"
 #include "orbslam/tracking/local_map_tracker.h"
+#include "orbslam/tracking/mask_doubt.h"
 #include "orbslam/tracking/motion_model.h"
 #include "orbslam/tracking/moving_region.h"
 #include "orbslam/tracking/point_counter.h"
+#include "orbslam/tracking/point_judge.h"
 #include "orbslam/tracking/pose_reviser.h"
-#include "orbslam/tracking/quarantine.h"
 #include "orbslam/tracking/relocalizer.h"
 #include "orbslam/tracking/tracking_options.h"
 #include "orbslam/util/stage_timer.h"
@@ -47,7 +47,6 @@ class Tracking {
  private:
   Frame MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_frame, FrameReport* report);
   OrbFeatures Describe(const cv::Mat& mask);
-  void NoteDoubt(const DynamicMask& moving, double timestamp_s);
   DynamicMask AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame);
   void Initialize(Frame* frame, FrameReport* report);
   void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
@@ -56,12 +55,8 @@ class Tracking {
   bool FindFirstPose(Frame* frame);
   bool TakeBetterPose(Frame* frame);
   bool RefineOnLocalMap(Frame* frame, FrameReport* report);
-  void JudgePoints(const LocalMapTracker::Result& result, const Frame& frame);
-  void RefuteSeenThrough(const std::vector<MapPointId>& seen_through, const Frame& frame);
   void FollowMapCorrections();
-  KeyFrameEvidence GatherEvidence(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
   bool WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
-  void EraseCondemnedPoints();
   void InsertKeyFrame(Frame* frame, FrameReport* report);
   void Remember(Frame frame, FrameReport* report);
   std::vector<RevisedPose> Revise(double until_s);
@@ -76,17 +71,15 @@ class Tracking {
   Relocalizer relocalizer_;
   MotionModel motion_;
   PointCounter counter_;
-  Quarantine quarantine_;
   PoseReviser reviser_;
+  PointJudge point_judge_;
+  MaskDoubt doubt_;
   StageTimer timer_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
   bool makes_keyframes_ = true;
   MovingRegion moving_;          // of the present frame
   bool is_mask_unused_ = false;  // the present frame may show moving objects as if they were static
-  double last_filled_s_ =
-      -std::numeric_limits<double>::infinity();  // when moving things last filled the picture
-  double doubt_ends_s_ = last_filled_s_;         // until then they may look static: no keyframes
   uint64_t epoch_ = 0;           // of the map, when the present frame was begun
   std::optional<Frame> last_;    // the last frame that was tracked
   KeyFrameId reference_;         // the keyframe that shares most points with it

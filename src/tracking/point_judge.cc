@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orbslam/tracking/point_judge.h"
+
+#include "orbslam/tracking/moving_region.h"
+
+namespace orbslam {
+
+void PointJudge::Judge(const LocalMapTracker::Result& found, const Frame& frame, const Frame* last) {
+  for (const MapPointId id : found.on_moving) quarantine_.Refute(id);
+  if (last != nullptr) RefuteSeenThrough(found.seen_through, frame, *last);
+  for (const MapPointId id : frame.points) quarantine_.FoundStatic(id);
+}
+
+/// Depth is taken up to half a frame earlier or later than colour: what shifts by more than a rim from frame
+/// to frame may have its depth elsewhere.
+void PointJudge::RefuteSeenThrough(const std::vector<MapPointId>& seen_through, const Frame& frame,
+                                   const Frame& last) {
+  const auto guard = map_->Read();
+  for (const MapPointId id : seen_through) {
+    const MapPoint* point = guard->Find(id);
+    if (point == nullptr) continue;
+    const Eigen::Vector3d x_camera = frame.camera_from_world * point->position_world;
+    const Eigen::Vector3d x_last = last.camera_from_world * point->position_world;
+    const Eigen::Vector2d shift_px = sensor_.camera.Project(x_camera) - sensor_.camera.Project(x_last);
+    if (x_last.z() > 0 && shift_px.norm() < MovingRegion::kRimPx) quarantine_.Refute(id);
+  }
+}
+
+void PointJudge::EraseCondemned() {
+  const std::vector<MapPointId> condemned = quarantine_.TakeCondemned();
+  if (condemned.empty()) return;
+  const auto guard = map_->Write();
+  for (const MapPointId id : condemned) {
+    if (guard->Find(id) != nullptr) guard->EraseMapPoint(id);
+  }
+}
+
+}  // namespace orbslam
