@@ -60,6 +60,32 @@ Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
   return {So3Exp(ratio * So3Log(velocity_.rotation)), ratio * velocity_.translation};
 }
 
+std::optional<FarMotion> CameraMotionEstimator::FarMotionSince(const ReferenceView& older,
+                                                               const WorkingFrame& current,
+                                                               std::span<const TrackedCorner> corners,
+                                                               uint64_t seed) const {
+  if (!options_.far.use_far_motion) return {};
+  Rng rng(seed, 2, 0xE60);
+  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, corners);
+  const std::vector<Rigid3d> carried{Inverse(older.color_reference_from_current),
+                                     Inverse(older.reference_from_current)};
+  return ContradictedFarMotion(grids_, {older, current, matches, carried, velocity_}, options_, &rng);
+}
+
+void CameraMotionEstimator::FollowFar(const ReferenceView& last, const WorkingFrame& current, double split_m,
+                                      uint64_t seed, CameraMotion* motion) {
+  Rng rng(seed, 3, 0xE60);
+  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, motion->corners);
+  const std::vector<Rigid3d> candidates{motion->color_current_from_previous, Rigid3d()};
+  const auto far =
+      FindFarMotion(grids_, {last, current, matches, candidates, velocity_}, split_m, options_, &rng);
+  if (!far) return;
+  motion->color_current_from_previous = velocity_ = far->color_current_from_earlier;
+  motion->depth_current_from_previous = far->depth_current_from_earlier;
+  MeasureExcess(grids_.gray, motion->color_current_from_previous, &motion->corners);
+  inlier_px_ = NextInlierPx(motion->corners, options_);
+}
+
 /// Draws find the room where somebody who set off has bent what is carried, but where a thing fills the
 /// picture they prefer that: of the two poses the one that is nearer to the depth's own.
 PoseFromCorners CameraMotionEstimator::PoseSince(const ReferenceView& older,
@@ -88,10 +114,18 @@ OlderCorners CameraMotionEstimator::FollowFrom(const ReferenceView& older, const
   for (TrackedCorner& corner : corners)
     if (const cv::Point cell = CellOf(corner); inside.contains(cell) && last.moving(cell) != 0)
       corner.was_moving = true;
-  const PoseFromCorners pose = PoseSince(older, corners, seed);
-  if (!pose.ok) return {};
-  MeasureExcess(grids_.gray, pose.current_from_previous, &corners);
-  return {std::move(corners), pose.current_from_previous};
+  OlderCorners result;
+  result.far = FarMotionSince(older, current, corners, seed);
+  if (result.far) {
+    result.current_from_older = result.far->color_current_from_earlier;
+  } else {
+    const PoseFromCorners pose = PoseSince(older, corners, seed);
+    if (!pose.ok) return {};
+    result.current_from_older = pose.current_from_previous;
+  }
+  MeasureExcess(grids_.gray, *result.current_from_older, &corners);
+  result.corners = std::move(corners);
+  return result;
 }
 
 PoseFromCorners CameraMotionEstimator::PoseOf(std::span<const TrackedCorner> corners,

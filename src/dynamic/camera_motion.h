@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "far_motion.h"
 #include "orbslam/dynamic/dynamic_detector_options.h"
 #include "scene_history.h"
 #include "tracked_corner.h"
@@ -29,6 +30,7 @@ struct CameraMotion {
 struct OlderCorners {
   std::vector<TrackedCorner> corners;  // none, if the motion could not be found
   std::optional<Rigid3d> current_from_older;
+  std::optional<FarMotion> far;  // by which it was found: what is carried had followed something near
 };
 
 class CameraMotionEstimator {
@@ -41,12 +43,18 @@ class CameraMotionEstimator {
   /// last: the frame before this one, whose mask is newer. seed: as above.
   OlderCorners FollowFrom(const ReferenceView& older, const ReferenceView& last,
                           const WorkingFrame& current, uint64_t seed) const;
+  /// Once something near turned out to be followed: the motion since the last frame, by what is farther than
+  /// split_m. As it was, if that does not tell.
+  void FollowFar(const ReferenceView& last, const WorkingFrame& current, double split_m, uint64_t seed,
+                 CameraMotion* motion);
   void Reset() { velocity_ = {}, previous_interval_s_ = 0, inlier_px_ = options_.pose.inlier_px; }
 
  private:
   Rigid3d Predict(double interval_s) const;
   PoseFromCorners PoseOf(std::span<const TrackedCorner> corners, const Rigid3d& predicted,
                          uint64_t seed) const;
+  std::optional<FarMotion> FarMotionSince(const ReferenceView& older, const WorkingFrame& current,
+                                          std::span<const TrackedCorner> corners, uint64_t seed) const;
   PoseFromCorners PoseSince(const ReferenceView& older, std::span<const TrackedCorner> corners,
                             uint64_t seed) const;
 

@@ -41,7 +41,7 @@ void AddCorners(const Segmentation& segmentation, const Flow& flow, const cv::Ma
     if (!cv::Rect({0, 0}, segmentation.labels.size()).contains(cell)) continue;
     if (held != nullptr && ((*held)(cell) <= 0 || !flow.Moves(corner))) continue;
     const int label = segmentation.labels(cell);
-    if (label < 0) continue;
+    if (label < 0 || segmentation.clusters[label].is_flat) continue;
     ++(*all)[label].num_corners;
     (*all)[label].num_moving_corners += flow.Moves(corner);
   }
@@ -59,7 +59,8 @@ std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const Wo
     all[c].num_cells = static_cast<int>(cells.size());
     for (const int cell : cells) {
       AddCell(segmentation, frame, votes, cell, &all[c]);
-      all[c].carried += carried(cell) / static_cast<float>(cells.size());
+      if (!segmentation.clusters[c].is_flat)
+        all[c].carried += carried(cell) / static_cast<float>(cells.size());
     }
   }
   for (const Flow& flow : flows) {

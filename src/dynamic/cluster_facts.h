@@ -23,8 +23,9 @@ struct ClusterFacts {
   int num_corners = 0, num_moving_corners = 0;  // followed; not where a static point would be
 };
 
-/// flows: from the last frame, and others. Of one of these that is not sharp, only what moves counts, and
-/// only on what moved before.
+/// Large flat clusters are judged by the space they are in alone: a floor that comes into view between the
+/// feet of a walker has neither moved before, nor by the corners of his shoes. flows: from the last frame,
+/// and others. Of one of these that is not sharp, only what moves counts, and only on what moved before.
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
                                       std::span<const Flow> flows);

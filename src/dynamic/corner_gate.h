@@ -21,12 +21,13 @@ CornerGate MakeCornerGate(std::span<const TrackedCorner> corners, const CornerGa
 struct Flow {
   std::vector<TrackedCorner> corners;
   CornerGate gate;
+  bool far_alone_rests = false;  // by that the camera's motion was found: near ones contradict it
 
   bool Moves(const TrackedCorner& corner) const { return corner.residual_px > gate.moving_px; }
 };
 inline Flow MakeFlow(std::vector<TrackedCorner> corners, const CornerGateOptions& options) {
   const CornerGate gate = MakeCornerGate(corners, options);
-  return {std::move(corners), gate};
+  return {std::move(corners), gate, false};
 }
 
 }  // namespace orbslam

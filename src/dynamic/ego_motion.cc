@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "orbslam/geometry/so3.h"
 
@@ -32,14 +33,35 @@ float SquaredError(const GridCamera& camera, const Motion& motion, const CornerM
   return du * du + dv * dv;
 }
 
+/// Of a pixel, by the pose: rotation, then translation, on its left. x, y: of the point, at z = 1.
+Eigen::Matrix<float, 2, 6> Jacobian(const GridCamera& camera, float x, float y, float inverse_z) {
+  Eigen::Matrix<float, 2, 6> jacobian;
+  jacobian << -camera.fx * x * y, camera.fx * (1 + x * x), -camera.fx * y, camera.fx * inverse_z, 0,
+      -camera.fx * x * inverse_z, -camera.fy * (1 + y * y), camera.fy * x * y, camera.fy * x, 0,
+      camera.fy * inverse_z, -camera.fy * y * inverse_z;
+  return jacobian;
+}
+
+/// The small motion, on its left, that leads from b to a.
+Eigen::Matrix<double, 6, 1> Difference(const Rigid3d& a, const Rigid3d& b) {
+  const Rigid3d a_from_b = a * Inverse(b);
+  Eigen::Matrix<double, 6, 1> difference;
+  difference << So3Log(a_from_b.rotation), a_from_b.translation;
+  return difference;
+}
+
 /// One Gauss-Newton step over the given matches, each weighted by Tukey's biweight of scale (px); 0: all
 /// alike.
 Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matches,
                 const std::vector<int>& used, const Rigid3d& pose, float scale_px,
-                Matrix6f* information = nullptr) {
+                const PosePrior* prior = nullptr, Matrix6f* information = nullptr) {
   const Motion motion = ToMotion(pose);
   Matrix6f hessian = Matrix6f::Identity() * 1e-3f;
   Vector6f gradient = Vector6f::Zero();
+  if (prior != nullptr) {
+    hessian = prior->information.cast<float>();
+    gradient = hessian * Difference(pose, prior->current_from_previous).cast<float>();
+  }
   for (const int index : used) {
     const CornerMatch& match = matches[index];
     const Eigen::Vector3f q = motion.rotation * match.x_previous + motion.translation;
@@ -53,10 +75,7 @@ Rigid3d Improve(const GridCamera& camera, const std::vector<CornerMatch>& matche
       if (share2 >= 1) continue;
       weight = (1 - share2) * (1 - share2);
     }
-    Eigen::Matrix<float, 2, 6> jacobian;  // rotation, then translation, on the left of the pose
-    jacobian << -camera.fx * x * y, camera.fx * (1 + x * x), -camera.fx * y, camera.fx * iz, 0,
-        -camera.fx * x * iz, -camera.fy * (1 + y * y), camera.fy * x * y, camera.fy * x, 0, camera.fy * iz,
-        -camera.fy * y * iz;
+    const Eigen::Matrix<float, 2, 6> jacobian = Jacobian(camera, x, y, iz);
     hessian.noalias() += weight * jacobian.transpose() * jacobian;
     gradient.noalias() += weight * jacobian.transpose() * error;
   }
@@ -103,9 +122,23 @@ Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>&
 
 }  // namespace
 
+Eigen::Vector2d ErrorPx(const GridCamera& camera, const Rigid3d& pose, const CornerMatch& match) {
+  const Eigen::Vector3d q = pose * match.x_previous.cast<double>();
+  const double z = std::max(q.z(), 0.05);
+  return {camera.fx * q.x() / z + camera.cx - match.pixel.x(),
+          camera.fy * q.y() / z + camera.cy - match.pixel.y()};
+}
+
+Eigen::Matrix<double, 2, 6> PixelFromMotion(const GridCamera& camera, const Rigid3d& pose,
+                                            const CornerMatch& match) {
+  const Eigen::Vector3f q = (pose * match.x_previous.cast<double>()).cast<float>();
+  const float inverse_z = 1 / std::max(q.z(), 0.05f);
+  return Jacobian(camera, q.x() * inverse_z, q.y() * inverse_z, inverse_z).cast<double>();
+}
+
 PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerMatch>& matches,
                              const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
-                             Rng* rng) {
+                             Rng* rng, const PosePrior* prior) {
   PoseFromCorners result;
   result.current_from_previous = candidates.front();
   result.is_inlier.assign(matches.size(), 0);
@@ -113,9 +146,13 @@ PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerM
   Rigid3d pose = BestHypothesis(camera, matches, candidates, options, rng);
   std::vector<int> all(matches.size());
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  Matrix6f information;  // of a flow with an error of 1 px
+  std::optional<PosePrior> scaled;  // like information: of a flow with an error of 1 px
+  if (prior != nullptr)
+    scaled = {prior->current_from_previous, prior->information * options.sigma_px * options.sigma_px};
+  Matrix6f information;
   for (int i = 0; i < 5; ++i)
-    pose = Improve(camera, matches, all, pose, 1.5f * options.inlier_px, &information);
+    pose = Improve(camera, matches, all, pose, 1.5f * options.inlier_px, scaled ? &*scaled : nullptr,
+                   &information);
   result.information = information.cast<double>() / (options.sigma_px * options.sigma_px);
   const Motion motion = ToMotion(pose);
   for (size_t i = 0; i < matches.size(); ++i)

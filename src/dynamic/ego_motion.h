@@ -26,10 +26,22 @@ struct PoseFromCorners {
   bool ok = false;
 };
 
+/// What else is known of the motion; information as above.
+struct PosePrior {
+  Rigid3d current_from_previous;
+  Eigen::Matrix<double, 6, 6> information;
+};
+
+/// From where a match is to where it would be if it rested, given current_from_previous (grey px).
+Eigen::Vector2d ErrorPx(const GridCamera& camera, const Rigid3d& pose, const CornerMatch& match);
+/// Derivative of that place by small motions, as in information.
+Eigen::Matrix<double, 2, 6> PixelFromMotion(const GridCamera& camera, const Rigid3d& pose,
+                                            const CornerMatch& match);
+
 /// The camera's motion from corners: RANSAC over triples, in which the candidates given (a motion model, "no
-/// motion") compete; then Gauss-Newton on the inliers.
+/// motion") compete; then Gauss-Newton on the inliers, and the prior, if there is one.
 PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerMatch>& matches,
                              const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
-                             Rng* rng);
+                             Rng* rng, const PosePrior* prior = nullptr);
 
 }  // namespace orbslam

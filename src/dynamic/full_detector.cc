@@ -85,20 +85,27 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
   history_.Advance(Inverse(judgement.motion.depth_current_from_previous),
                    Inverse(judgement.motion.color_current_from_previous));
   history_.AlignKeyframes(frame, judgement.motion.is_depth_misled);
-  judgement.flows = JudgeFlow(frame, judgement, seed);
+  judgement.flows = JudgeFlow(frame, seed, &judgement);
   judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.corners);
   judgement.carried = CarryOver(log_odds_, judgement.shift);
   return judgement;
 }
 
-std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, const Judgement& judgement, uint64_t seed) {
-  std::vector<Flow> flows{MakeFlow(judgement.motion.corners, options_.corner_gate)};
+std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, uint64_t seed, Judgement* judgement) {
+  std::vector<Flow> flows{MakeFlow(judgement->motion.corners, options_.corner_gate)};
   const ReferenceView* older = history_.KeyframeOfAge(options_.slow_flow.age_frames);
-  if (!options_.slow_flow.use_slow_flow || !judgement.is_trusted || older == nullptr) return flows;
+  if (!options_.slow_flow.use_slow_flow || !judgement->is_trusted || older == nullptr) return flows;
   OlderCorners slow = motion_estimator_.FollowFrom(*older, *history_.Back(1), frame, seed);
   if (slow.current_from_older) history_.CorrectColor(*older, Inverse(*slow.current_from_older));
+  if (slow.far) {
+    history_.CorrectDepth(*older, Inverse(slow.far->depth_current_from_earlier));
+    motion_estimator_.FollowFar(*history_.Back(1), frame, slow.far->split_m, seed, &judgement->motion);
+    flows.front() = MakeFlow(judgement->motion.corners, options_.corner_gate);
+  }
   Flow flow = MakeFlow(std::move(slow.corners), options_.slow_flow.gate);
-  if (flow.gate.sharpness >= options_.slow_flow.min_sharpness) flows.push_back(std::move(flow));
+  flow.far_alone_rests = slow.far.has_value();
+  if (flow.far_alone_rests || flow.gate.sharpness >= options_.slow_flow.min_sharpness)
+    flows.push_back(std::move(flow));
   return flows;
 }
 
@@ -106,9 +113,15 @@ void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView
                         Judgement* judgement) const {
   judgement->votes = VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
   if (!options_.sliding.use_sliding || !judgement->is_trusted) return;
-  for (const Flow& flow : judgement->flows)
-    if (flow.gate.IsSharp())
-      WithdrawStatic(SlidingCells(frame.depth_m, flow, options_.sliding), &judgement->votes);
+  for (const Flow& flow : judgement->flows) {
+    if (!flow.gate.IsSharp() && !flow.far_alone_rests) continue;
+    SlidingOptions options = options_.sliding;
+    if (flow.far_alone_rests) {  // what is near moves: each of its corners speaks for the surface it is on
+      options.min_neighbors = 1, options.min_likeness = 0;
+      options.max_steps = options_.camera_motion.far.reach_cells;
+    }
+    WithdrawStatic(SlidingCells(frame.depth_m, flow, options), &judgement->votes);
+  }
 }
 
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,

@@ -85,7 +85,7 @@ Segmentation SegmentSurfaces(const GridCamera& camera, const WorkingFrame& frame
     std::vector<int> cells = planes.Largest(cluster.cells, options.min_plane_m2);
     if (cells.empty()) continue;
     for (const int cell : cells) rest(cell) = 0;
-    flat.push_back({std::move(cells)});
+    flat.push_back({std::move(cells), true});
   }
   if (flat.empty()) return joined;
   Segmentation result = SegmentCells(frame.depth_m, rest, options.min_cells);

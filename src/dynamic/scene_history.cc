@@ -26,10 +26,18 @@ void SceneHistory::Advance(const Rigid3d& depth_previous_from_current,
 }
 
 void SceneHistory::CorrectColor(const ReferenceView& view, const Rigid3d& color_reference_from_current) {
-  const Rigid3d correction = Inverse(view.color_reference_from_current) * color_reference_from_current;
+  Correct(&ReferenceView::color_reference_from_current, view, color_reference_from_current);
+}
+
+void SceneHistory::CorrectDepth(const ReferenceView& view, const Rigid3d& reference_from_current) {
+  Correct(&ReferenceView::reference_from_current, view, reference_from_current);
+}
+
+void SceneHistory::Correct(Rigid3d ReferenceView::*pose, const ReferenceView& view,
+                           const Rigid3d& corrected) {
+  const Rigid3d correction = Inverse(view.*pose) * corrected;
   for (auto* views : {&recent_, &keyframes_})
-    for (ReferenceView& other : *views)
-      other.color_reference_from_current = other.color_reference_from_current * correction;
+    for (ReferenceView& other : *views) other.*pose = other.*pose * correction;
 }
 
 void SceneHistory::AlignKeyframes(const WorkingFrame& current, bool is_depth_misled) {

@@ -22,8 +22,10 @@ class SceneHistory {
   const ReferenceView* Back(int num_back) const;
   /// Carries all poses over to the frame now processed.
   void Advance(const Rigid3d& depth_previous_from_current, const Rigid3d& color_previous_from_current);
-  /// Puts right what a view's colour pose is found to be, and the others' by as much.
+  /// Puts right what a view's pose is found to be, of the colour or the depth image, and the others' by as
+  /// much.
   void CorrectColor(const ReferenceView& view, const Rigid3d& color_reference_from_current);
+  void CorrectDepth(const ReferenceView& view, const Rigid3d& reference_from_current);
   /// Aligns each keyframe with the present frame; those that do not fit, or no longer overlap, are forgotten.
   /// is_depth_misled: something moves that depth takes for the room; its pull is made weak for a while.
   void AlignKeyframes(const WorkingFrame& current, bool is_depth_misled);
@@ -39,6 +41,7 @@ class SceneHistory {
   void Clear();
 
  private:
+  void Correct(Rigid3d ReferenceView::*pose, const ReferenceView& view, const Rigid3d& corrected);
   /// Drops one: the oldest if it is too old, else that whose neighbours' ages are most alike, so that ages
   /// come to grow geometrically.
   void ThinKeyframes();

@@ -50,7 +50,7 @@ Segmentation SegmentCells(const cv::Mat1f& depth_m, const cv::Mat1b& included, i
   for (pcl::PointIndices& component : components) {
     if (static_cast<int>(component.indices.size()) < min_cells) continue;
     for (const int cell : component.indices) result.labels(cell) = static_cast<int>(result.clusters.size());
-    result.clusters.push_back({std::move(component.indices)});
+    result.clusters.push_back({std::move(component.indices), false});
   }
   return result;
 }

@@ -11,6 +11,7 @@ namespace orbslam {
 /// A connected surface of the organised cloud.
 struct Cluster {
   std::vector<int> cells;  // indices into the grid, ascending
+  bool is_flat = false;    // and large: a floor, a wall, a table
 };
 
 struct Segmentation {

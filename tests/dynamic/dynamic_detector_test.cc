@@ -156,6 +156,7 @@ TEST(DynamicDetector, WorksWithEachSourceOfEvidenceOff) {
                                      [](auto& o) -> bool& { return o.fusion.use_histogram; },
                                      [](auto& o) -> bool& { return o.sliding.use_sliding; },
                                      [](auto& o) -> bool& { return o.slow_flow.use_slow_flow; },
+                                     [](auto& o) -> bool& { return o.camera_motion.far.use_far_motion; },
                                      [](auto& o) -> bool& { return o.growth.use_growth; },
                                      [](auto& o) -> bool& { return o.growth.use_background; },
                                      [](auto& o) -> bool& { return o.growth.use_corners; }};

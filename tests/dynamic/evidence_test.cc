@@ -45,12 +45,13 @@ TEST(Evidence, MoreOfItNeverSpeaksTheOtherWay) {
 
 /// Two things side by side, the left of which moved before; on each a corner that moves and one that rests,
 /// followed from an older frame.
-std::vector<ClusterFacts> FactsFromOlderFrame(float sharpness) {
+std::vector<ClusterFacts> FactsFromOlderFrame(float sharpness, bool left_is_flat = false) {
   const cv::Rect left(0, 0, 20, 20), right(20, 0, 20, 20);
   Segmentation segmentation{cv::Mat1i(20, 40, 0), std::vector<Cluster>(2)};
   segmentation.labels(right).setTo(1);
   for (int cell = 0; cell < 20 * 40; ++cell)
     segmentation.clusters[segmentation.labels(cell)].cells.push_back(cell);
+  segmentation.clusters[0].is_flat = left_is_flat;
   WorkingFrame frame;
   frame.depth_m = cv::Mat1f(20, 40, 2.f);
   cv::Mat1f carried(20, 40, -1.f);
@@ -75,6 +76,16 @@ TEST(Evidence, AnOlderFrameThatIsNotSharpHoldsWhatMovesButBeginsNothing) {
   EXPECT_EQ(blurred[0].num_corners, 1);
   EXPECT_EQ(blurred[0].num_moving_corners, 1);
   EXPECT_EQ(blurred[1].num_corners, 0);
+}
+
+TEST(Evidence, AFloorMovesNeitherByItsPastNorByTheShoesOnIt) {
+  const std::vector<ClusterFacts> thing = FactsFromOlderFrame(1), floor = FactsFromOlderFrame(1, true);
+  EXPECT_GT(thing[0].carried, 1);
+  EXPECT_EQ(floor[0].carried, 0);
+  EXPECT_EQ(floor[0].num_corners, 0);
+  EXPECT_EQ(floor[0].num_moving_corners, 0);
+  EXPECT_EQ(floor[1].num_corners, thing[1].num_corners);  // what is beside it is judged as ever
+  EXPECT_EQ(floor[1].carried, thing[1].carried);
 }
 
 TEST(Evidence, CornersWeighByHowExactTheyAre) {

@@ -54,6 +54,8 @@ TEST(PlaneSplit, AFloorIsNoPartOfWhatStandsOnIt) {
   const Segmentation apart = SegmentAll(frame);
   EXPECT_NE(LabelAt(apart, 80, 50), LabelAt(apart, 20, 90));
   EXPECT_EQ(LabelAt(apart, 20, 90), LabelAt(apart, 140, 90));  // one floor, on both sides of the post
+  EXPECT_TRUE(apart.clusters[LabelAt(apart, 20, 90)].is_flat);
+  EXPECT_FALSE(apart.clusters[LabelAt(apart, 80, 50)].is_flat);
   SegmentationOptions joined;
   joined.use_planes = false;
   EXPECT_EQ(LabelAt(SegmentAll(frame, joined), 80, 50), LabelAt(SegmentAll(frame, joined), 20, 90));

@@ -207,6 +207,10 @@ TEST_F(TrackedCornerTest, PuttingOneColourPoseRightLeavesTheViewsAsTheyAreToEach
   EXPECT_LT((history.Back(3)->color_reference_from_current.translation - right.translation).norm(), 1e-12);
   EXPECT_LT((between().translation - before.translation).norm(), 1e-12);
   EXPECT_EQ(history.Back(3)->reference_from_current.translation.norm(), 0);  // depth has its own
+  history.CorrectDepth(*history.Back(2), right);
+  for (const int back : {1, 2, 3})
+    EXPECT_LT((history.Back(back)->reference_from_current.translation - right.translation).norm(), 1e-12);
+  EXPECT_LT((between().translation - before.translation).norm(), 1e-12);
 }
 
 }  // namespace

@@ -46,6 +46,21 @@ struct IcpOptions {
   double independent_share = 1;  // of the points, when their sum is weighed against the prior
 };
 
+/// The camera's motion by far things alone, over half a second: where near ones contradict it, they move.
+struct FarMotionOptions {
+  bool use_far_motion = true;
+  int min_near = 8, min_far = 30;  // corners: a thing of some size; five for each unknown
+  double min_far_share = 0.6;      // of the far corners, that agree: what is far is one, and so the room
+  double min_deviation_px = 2;  // grey px, of a near corner: 1 cm at a distance of 1.3 m. In rooms where all
+  double min_sigmas = 4;        // rests, half of them never reach both this and that many sigmas
+  double clock_share = 0.15;    // of the motion between frames: sigma of what colour and depth see of it ...
+  double least_clock = 0.0007;  // ... and of the rest; rad, m
+  int stride = 4, iterations = 3;  // of the alignment, as of a keyframe's
+  int min_pairs = 60;              // ten for each unknown
+  double min_fit_share = 0.6;      // of them, within 3 sigma
+  int reach_cells = 40;            // how far a corner speaks for the surface it is on: half a person's height
+};
+
 struct CameraMotionOptions {
   CornerOptions corners;
   FlowOptions flow;
@@ -55,6 +70,7 @@ struct CameraMotionOptions {
   float inlier_quartiles = 3.f;  // of the resting corners' residuals: 2.3 sigma, were they Gaussian
   float min_inlier_px = 0.2f;  // grey px: 3 sigma of flow at its best; tighter, a board before the lens wins
   IcpOptions icp;
+  FarMotionOptions far;
   // Depth follows a person who walks along a wall, which itself says nothing of that direction. It is
   // believed if it differs from the corners' motion by no more than sigmas of its prior and what the clocks
   // explain.
