@@ -27,7 +27,7 @@ OTHER_MOTIONS = [f"synthetic_walking_{motion}" for motion in ("static", "rpy", "
 SITUATIONS = [f"synthetic_{name}" for name in (
     "still_then_all_xyz_420", "cover_xyz", "close_xyz", "crossing_xyz_200", "waiting_xyz_240",
     "newly_seen_halfsphere_420", "put_down_xyz_240", "taken_away_xyz_240", "monitor_xyz_200", "crowd_xyz_200",
-    "walking_static_200", "static_xyz_200")]
+    "objects_halfsphere", "walking_static_200", "static_xyz_200")]
 
 BASELINE_RATIOS = ("ate_ratio_empty", "ate_ratio_true_masks")
 
