@@ -84,6 +84,24 @@ TEST_F(FarMotionTest, WhatIsFarMayNotBeOutvoted) {
   EXPECT_FALSE(Contradicted());
 }
 
+TEST_F(FarMotionTest, WhatIsFarIsOnlyBelievedIfItIsOne) {
+  See({{0.1, 0.1, 1.3}, kBoxSize}, {{0.15, 0.1, 1.3}, kBoxSize});
+  int num_far = 0;
+  for (CornerMatch& match : matches_)
+    if (match.x_previous.z() > 1.9f && ++num_far % 2 == 0)
+      match.pixel.y() += static_cast<float>(3 + num_far % 5);
+  ASSERT_GT(num_far, 80);
+  EXPECT_FALSE(Contradicted());
+}
+
+TEST_F(FarMotionTest, NeedsDepthThatFits) {
+  See({{0.1, 0.1, 1.3}, kBoxSize}, {{0.15, 0.1, 1.3}, kBoxSize});
+  auto without_depth = std::make_shared<WorkingFrame>(*current_);
+  without_depth->depth_m = cv::Mat1f::zeros(current_->depth_m.size());
+  current_ = without_depth;
+  EXPECT_FALSE(Contradicted());
+}
+
 TEST_F(FarMotionTest, TooFewMatchesTellNothing) {
   See({{0.1, 0.1, 1.3}, kBoxSize}, {{0.15, 0.1, 1.3}, kBoxSize});
   for (const size_t count : {0u, 1u, 10u, 30u}) {
