@@ -44,6 +44,7 @@ class FullDetector {
   std::string ReasonToBegin(double timestamp_s) const;
   void Forget();
   void Begin(std::shared_ptr<const WorkingFrame> frame);
+  /// Puts the motion right if it had followed something near.
   std::vector<Flow> JudgeFlow(const WorkingFrame& frame, uint64_t seed, Judgement* judgement);
   Judgement EstimateMotion(const WorkingFrame& frame, uint64_t seed);
   void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
