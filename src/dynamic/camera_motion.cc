@@ -62,11 +62,10 @@ Rigid3d CameraMotionEstimator::Predict(double interval_s) const {
 
 std::optional<FarMotion> CameraMotionEstimator::FarMotionSince(const ReferenceView& older,
                                                                const WorkingFrame& current,
-                                                               std::span<const TrackedCorner> corners,
+                                                               std::span<const CornerMatch> matches,
                                                                uint64_t seed) const {
   if (!options_.far.use_far_motion) return {};
   Rng rng(seed, 2, 0xE60);
-  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, corners);
   const std::vector<Rigid3d> carried{Inverse(older.color_reference_from_current),
                                      Inverse(older.reference_from_current)};
   return ContradictedFarMotion(grids_, {older, current, matches, carried, velocity_}, options_, &rng);
@@ -89,9 +88,8 @@ void CameraMotionEstimator::FollowFar(const ReferenceView& last, const WorkingFr
 /// Draws find the room where somebody who set off has bent what is carried, but where a thing fills the
 /// picture they prefer that: of the two poses the one that is nearer to the depth's own.
 PoseFromCorners CameraMotionEstimator::PoseSince(const ReferenceView& older,
-                                                 std::span<const TrackedCorner> corners,
+                                                 const std::vector<CornerMatch>& matches,
                                                  uint64_t seed) const {
-  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, corners);
   const Rigid3d aligned = Inverse(older.reference_from_current);
   const std::vector<Rigid3d> candidates{Inverse(older.color_reference_from_current), aligned};
   PoseFromCornersOptions without_draws = options_.pose;
@@ -114,12 +112,13 @@ OlderCorners CameraMotionEstimator::FollowFrom(const ReferenceView& older, const
   for (TrackedCorner& corner : corners)
     if (const cv::Point cell = CellOf(corner); inside.contains(cell) && last.moving(cell) != 0)
       corner.was_moving = true;
+  const std::vector<CornerMatch> matches = RestingMatches(grids_.gray, corners);
   OlderCorners result;
-  result.far = FarMotionSince(older, current, corners, seed);
+  result.far = FarMotionSince(older, current, matches, seed);
   if (result.far) {
     result.current_from_older = result.far->color_current_from_earlier;
   } else {
-    const PoseFromCorners pose = PoseSince(older, corners, seed);
+    const PoseFromCorners pose = PoseSince(older, matches, seed);
     if (!pose.ok) return {};
     result.current_from_older = pose.current_from_previous;
   }

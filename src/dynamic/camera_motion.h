@@ -54,8 +54,8 @@ class CameraMotionEstimator {
   PoseFromCorners PoseOf(std::span<const TrackedCorner> corners, const Rigid3d& predicted,
                          uint64_t seed) const;
   std::optional<FarMotion> FarMotionSince(const ReferenceView& older, const WorkingFrame& current,
-                                          std::span<const TrackedCorner> corners, uint64_t seed) const;
-  PoseFromCorners PoseSince(const ReferenceView& older, std::span<const TrackedCorner> corners,
+                                          std::span<const CornerMatch> matches, uint64_t seed) const;
+  PoseFromCorners PoseSince(const ReferenceView& older, const std::vector<CornerMatch>& matches,
                             uint64_t seed) const;
 
   WorkingGrids grids_;
