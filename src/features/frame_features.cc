@@ -3,29 +3,20 @@
 
 #include <cmath>
 
+#include "orbslam/features/corner_depth.h"
 #include "orbslam/util/check.h"
 
 namespace orbslam {
 namespace {
 
-bool Inside(const cv::Mat& image, const cv::Point& pixel) {
-  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < image.cols && pixel.y < image.rows;
-}
-
 cv::Point RoundedPixel(const OrbKeypoint& keypoint) {
   return {static_cast<int>(std::lround(keypoint.u)), static_cast<int>(std::lround(keypoint.v))};
-}
-
-float DepthAt(const cv::Mat& depth_m, const cv::Point& pixel) {
-  if (!Inside(depth_m, pixel)) return -1.0f;
-  const float depth = depth_m.at<float>(pixel);
-  return std::isfinite(depth) && depth > 0.0f ? depth : -1.0f;
 }
 
 void ReadDepths(const std::vector<cv::Point>& raw_pixels, const cv::Mat& depth_m,
                 const DepthModel& depth_model, FrameFeatures* features) {
   for (size_t i = 0; i < raw_pixels.size(); ++i) {
-    const float depth = DepthAt(depth_m, raw_pixels[i]);
+    const float depth = CornerDepthM(depth_m, raw_pixels[i], depth_model);
     const bool valid = depth > 0.0f;
     features->depths_m.push_back(depth);
     features->right_u.push_back(

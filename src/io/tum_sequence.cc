@@ -6,19 +6,23 @@
 #include <filesystem>
 #include <tuple>
 
+#include "orbslam/util/text.h"
 #include "tum_list.h"
 
 namespace orbslam {
 namespace {
 
 constexpr double kMaxDifferenceS = 0.02;  // the benchmark's; less than a frame at 30 Hz
+constexpr double kMaxDelayS = 0.1;        // further apart, the times are of two clocks
 
 std::string InFolder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
-RgbdEntry MakeEntry(const std::string& folder, const TumListRow& rgb, const std::string& depth_name) {
-  return {rgb.timestamp_s, rgb.fields[0], InFolder(folder, rgb.fields[1]), InFolder(folder, depth_name)};
+RgbdEntry MakeEntry(const std::string& folder, const TumListRow& rgb, double depth_s,
+                    const std::string& depth_name) {
+  return {rgb.timestamp_s, rgb.fields[0], InFolder(folder, rgb.fields[1]), InFolder(folder, depth_name),
+          depth_s - rgb.timestamp_s};
 }
 
 std::vector<double> Times(const TumList& list) {
@@ -27,11 +31,27 @@ std::vector<double> Times(const TumList& list) {
   return times;
 }
 
+/// Times of two clocks tell no delay.
+void ForgetImpossibleDelays(const std::string& path, TumSequence* sequence) {
+  int num_forgotten = 0;
+  for (RgbdEntry& entry : sequence->entries) {
+    if (std::abs(entry.depth_delay_s) <= kMaxDelayS) continue;
+    entry.depth_delay_s = 0;
+    ++num_forgotten;
+  }
+  if (num_forgotten == 0) return;
+  sequence->warnings.push_back(path + ": " + std::to_string(num_forgotten) +
+                               " depth images are more than 0.1 s away from their colour images by the times "
+                               "given; taken to be of the same instant");
+}
+
 Result<TumSequence> ReadAssociations(const std::string& folder, const std::string& path) {
   const Result<TumList> list = ReadTumList(path, kAssociations);
   if (!list) return list.error();
   TumSequence sequence{{}, list->warnings};
-  for (const TumListRow& row : list->rows) sequence.entries.push_back(MakeEntry(folder, row, row.fields[3]));
+  for (const TumListRow& row : list->rows)
+    sequence.entries.push_back(MakeEntry(folder, row, *ParseDouble(row.fields[2]), row.fields[3]));
+  ForgetImpossibleDelays(path, &sequence);
   return sequence;
 }
 
@@ -44,7 +64,8 @@ Result<TumSequence> AssociateLists(const std::string& folder) {
   TumSequence sequence{{}, rgb->warnings};
   sequence.warnings.insert(sequence.warnings.end(), depth->warnings.begin(), depth->warnings.end());
   for (const auto& [i, j] : AssociateByTime(Times(*rgb), Times(*depth), kMaxDifferenceS)) {
-    sequence.entries.push_back(MakeEntry(folder, rgb->rows[i], depth->rows[j].fields[1]));
+    sequence.entries.push_back(
+        MakeEntry(folder, rgb->rows[i], depth->rows[j].timestamp_s, depth->rows[j].fields[1]));
   }
   if (!sequence.entries.empty()) return sequence;
   return Error{folder + ": no time in rgb.txt is within 0.02 s of one in depth.txt"};

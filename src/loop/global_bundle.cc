@@ -6,8 +6,25 @@
 #include "orbslam/pipeline/map_correction.h"
 
 namespace orbslam {
+namespace {
 
-bool AdjustGlobally(const LoopOptions& options, const Sensor& sensor, std::stop_token stop, EditTurn* turn,
+BundleOptions OfKeyFrames(const LoopOptions& options) {
+  return {.solver = BundleOptions::Solver::kSparseSchur,
+          .robust_iterations = options.bundle_iterations,
+          .final_iterations = 0};
+}
+
+// What is bent over seconds costs little, so that only small gains are left to straighten it.
+BundleOptions OfManyFrames(const LoopOptions& options) {
+  return {.solver = BundleOptions::Solver::kIterativeSchur,
+          .robust_iterations = options.bundle_iterations,
+          .final_iterations = 3 * options.bundle_iterations};
+}
+
+}  // namespace
+
+bool AdjustGlobally(const LoopOptions& options, const Sensor& sensor,
+                    std::span<const PastFrame* const> others, std::stop_token stop, EditTurn* turn,
                     Map* map) {
   MapBundle bundle;
   {
@@ -15,11 +32,9 @@ bool AdjustGlobally(const LoopOptions& options, const Sensor& sensor, std::stop_
     std::set<KeyFrameId> all;
     for (const KeyFrame& keyframe : guard->KeyFrames()) all.insert(keyframe.id);
     bundle = GatherBundle(*guard, sensor, all, 0);
+    for (const PastFrame* frame : others) AddFrame(*guard, sensor, *frame, &bundle);
   }
-  BundleOptions bundle_options;
-  bundle_options.solver = BundleOptions::Solver::kSparseSchur;
-  bundle_options.robust_iterations = options.bundle_iterations;
-  bundle_options.final_iterations = 0;
+  const BundleOptions bundle_options = others.empty() ? OfKeyFrames(options) : OfManyFrames(options);
   const BundleSummary summary = SolveBundle(bundle_options, stop, &bundle.problem);
   if (!summary.is_usable || stop.stop_requested()) return false;
 

@@ -55,12 +55,12 @@ void LoopClosing::StartGlobalBundle() {
   global_bundle_thread_.request_stop();  // one under way knows nothing of the new loop
   Finish();
   if (global_bundle_ == GlobalBundle::kInline) {
-    AdjustGlobally(options_, sensor_, {}, turn_, map_);
+    AdjustGlobally(options_, sensor_, {}, {}, turn_, map_);
   } else {
     std::promise<void> done;
     global_bundle_done_ = done.get_future();
     global_bundle_thread_ = std::jthread([this, done = std::move(done)](std::stop_token stop) mutable {
-      AdjustGlobally(options_, sensor_, stop, turn_, map_);
+      AdjustGlobally(options_, sensor_, {}, stop, turn_, map_);
       done.set_value();
     });
   }

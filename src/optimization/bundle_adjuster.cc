@@ -7,7 +7,7 @@ namespace orbslam {
 namespace {
 
 // The first round only has to tell outliers from inliers.
-constexpr double kRobustTolerance = 1e-4, kFinalTolerance = 1e-5;
+constexpr double kRobustTolerance = 1e-4, kFinalTolerance = 1e-7;
 
 int NumIterations(const ceres::Solver::Summary& summary) {
   return summary.num_successful_steps + summary.num_unsuccessful_steps;

@@ -11,6 +11,18 @@ namespace {
 
 constexpr int kPointsGroup = 0, kPosesGroup = 1;  // of elimination
 
+ceres::LinearSolverType CeresType(BundleOptions::Solver solver) {
+  switch (solver) {
+    case BundleOptions::Solver::kDenseSchur:
+      return ceres::DENSE_SCHUR;
+    case BundleOptions::Solver::kSparseSchur:
+      return ceres::SPARSE_SCHUR;
+    case BundleOptions::Solver::kIterativeSchur:
+      return ceres::ITERATIVE_SCHUR;
+  }
+  return ceres::DENSE_SCHUR;
+}
+
 bool IsMono(const BundleObservation& o) { return o.pixel.z() < 0; }
 
 // Everything that Ceres is handed lives in BundleSolver.
@@ -79,8 +91,8 @@ ceres::Solver::Summary BundleSolver::Solve(int max_iterations, double function_t
                                            const std::stop_token& stop) {
   StopCallback callback(stop);
   ceres::Solver::Options options;
-  options.linear_solver_type =
-      options_.solver == BundleOptions::Solver::kDenseSchur ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  options.linear_solver_type = CeresType(options_.solver);
+  options.preconditioner_type = ceres::SCHUR_JACOBI;  // of the iterative one
   options.max_num_iterations = max_iterations;
   options.num_threads = options_.num_threads;
   options.function_tolerance = function_tolerance;

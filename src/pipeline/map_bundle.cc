@@ -68,6 +68,21 @@ MapBundle GatherBundle(const MapData& map, const Sensor& sensor, const std::set<
   return bundle;
 }
 
+void AddFrame(const MapData& map, const Sensor& sensor, const PastFrame& frame, MapBundle* bundle) {
+  const auto reference_from_world = map.CameraFromWorld(frame.reference);
+  if (!reference_from_world) return;
+  BundleProblem& problem = bundle->problem;
+  const int pose = static_cast<int>(problem.poses.size());
+  problem.poses.push_back({frame.camera_from_reference * *reference_from_world, false});
+  for (const Sighting& sighting : frame.sightings) {
+    const auto point = std::ranges::lower_bound(bundle->points, map.Resolve(sighting.point));
+    if (point == bundle->points.end() || *point != map.Resolve(sighting.point)) continue;
+    problem.observations.push_back({pose, static_cast<int>(point - bundle->points.begin()),
+                                    sighting.pixel.cast<double>(),
+                                    sensor.pyramid.InverseVariance(sighting.level)});
+  }
+}
+
 bool ApplyBundle(const MapBundle& bundle, const BundleSummary& summary, MapData* map) {
   if (map->epoch() != bundle.epoch || !summary.is_usable) return false;
   const BundleProblem& problem = bundle.problem;
@@ -78,8 +93,8 @@ bool ApplyBundle(const MapBundle& bundle, const BundleSummary& summary, MapData*
     }
   }
   for (size_t i = 0; i < problem.observations.size(); ++i) {
-    if (summary.is_inlier[i]) continue;
     const BundleObservation& outlier = problem.observations[i];
+    if (summary.is_inlier[i] || outlier.pose >= std::ssize(bundle.keyframes)) continue;
     map->RemoveObservation(bundle.points[outlier.point], bundle.keyframes[outlier.pose]);
   }
   for (size_t i = 0; i < bundle.points.size(); ++i) {

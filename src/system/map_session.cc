@@ -8,6 +8,9 @@ namespace {
 
 constexpr size_t kMaxWaitingKeyFrames = 3;
 constexpr size_t kMaxWaitingLoops = 64;
+// Frames beside the keyframes in the last adjustment.
+constexpr double kSampleIntervalS = 0.2;
+constexpr int kMaxSample = 1000;
 
 }  // namespace
 
@@ -45,7 +48,7 @@ MapSession::MapSession(const Sensor& sensor, const Settings& settings, RunMode m
 FrameReport MapSession::Track(const RgbdImage& image, const MaskOfFrame& mask_of_frame) {
   FrameReport report = tracking_.Process(image, Load(), mask_of_frame);
   trajectory_.Add(image, report);
-  for (const RevisedPose& pose : report.revised) trajectory_.Revise(pose);
+  for (const PastFrame& frame : report.revised) trajectory_.Revise(frame);
   if (report.new_keyframe) HandOver(*report.new_keyframe);
   return report;
 }
@@ -86,13 +89,16 @@ void MapSession::Stop(std::chrono::milliseconds max_wait) {
   mapping_stage_.CloseAndJoin();
   loop_stage_.CloseAndJoin();
   if (loop_closing_) loop_closing_->FinishWithin(max_wait);
-  for (const RevisedPose& pose : tracking_.ReviseRest()) trajectory_.Revise(pose);
+  for (PastFrame& frame : tracking_.ReviseRest()) trajectory_.Revise(std::move(frame));
 }
 
 void MapSession::AdjustWholeMap(std::stop_token stop) {
   if (!has_grown_) return;
   const auto measure = timer_.Measure("map.final_bundle");
-  has_grown_ = !AdjustGlobally(loop_options_, sensor_, stop, &turn_, &map_);
+  const auto others = trajectory_.Sample(kSampleIntervalS, kMaxSample);
+  if (!AdjustGlobally(loop_options_, sensor_, others, stop, &turn_, &map_)) return;
+  trajectory_.FindPosesAgain(map_, sensor_, stop);
+  has_grown_ = false;
 }
 
 void MapSession::SetLocalizationMode(bool is_on) {

@@ -77,7 +77,8 @@ RunSummary RunSequence(const TumSequence& sequence, const Settings& settings, co
                                             .timestamp_s = entry.timestamp_s,
                                             .timestamp_text = entry.timestamp_text,
                                             .gray = images->gray,
-                                            .depth_m = images->depth_m});
+                                            .depth_m = images->depth_m,
+                                            .depth_delay_s = entry.depth_delay_s});
     ++summary.frames_processed;
     summary.frames_lost += !report.world_from_camera.has_value();
     if (progress.IsDue(i + 1)) progress.Update(i + 1, Detail(report, *system));

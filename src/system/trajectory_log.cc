@@ -9,23 +9,57 @@
 #include "orbslam/util/text.h"
 
 namespace orbslam {
+namespace {
+
+constexpr std::ptrdiff_t kMaxWithSightings =
+    20000;  // frames: 200 MB; who runs for longer needs no last adjustment
+
+}  // namespace
 
 void TrajectoryLog::Add(const RgbdImage& image, const FrameReport& report) {
   if (!report.world_from_camera) {
     ++stretch_;
     return;
   }
-  ORBSLAM_CHECK(entries_.empty() || entries_.back().frame < image.id);
-  entries_.push_back({image.id, image.timestamp_s,
+  ORBSLAM_CHECK(entries_.empty() || entries_.back().frame.id < image.id);
+  entries_.push_back({{image.id,
+                       image.timestamp_s,
+                       report.reference,
+                       report.camera_from_reference,
+                       report.pose_information,
+                       {}},
                       image.timestamp_text.empty() ? FormatFixed(image.timestamp_s, 6) : image.timestamp_text,
-                      report.reference, report.camera_from_reference, report.pose_information, stretch_});
+                      stretch_});
 }
 
-void TrajectoryLog::Revise(const RevisedPose& revised) {
-  const auto entry = std::ranges::lower_bound(entries_, revised.frame, {}, &Entry::frame);
-  ORBSLAM_CHECK(entry != entries_.end() && entry->frame == revised.frame);
-  entry->camera_from_reference = revised.camera_from_reference;
-  entry->pose_information = revised.pose_information;
+void TrajectoryLog::Revise(PastFrame revised) {
+  const auto entry =
+      std::ranges::lower_bound(entries_, revised.id, {}, [](const Entry& e) { return e.frame.id; });
+  ORBSLAM_CHECK(entry != entries_.end() && entry->frame.id == revised.id);
+  entry->frame = std::move(revised);
+  if (const auto index = entry - entries_.begin(); index >= kMaxWithSightings)
+    entries_[index - kMaxWithSightings].frame.sightings = {};
+}
+
+std::vector<const PastFrame*> TrajectoryLog::Sample(double min_interval_s, int max_count) const {
+  std::vector<const PastFrame*> sample;
+  for (const auto& [frame, text, stretch] : entries_) {
+    if (frame.sightings.empty()) continue;
+    if (sample.empty() || frame.timestamp_s - sample.back()->timestamp_s >= min_interval_s)
+      sample.push_back(&frame);
+  }
+  if (std::ssize(sample) > max_count) {
+    for (int i = 0; i < max_count; ++i) sample[i] = sample[i * sample.size() / max_count];
+    sample.resize(max_count);
+  }
+  return sample;
+}
+
+void TrajectoryLog::FindPosesAgain(const Map& map, const Sensor& sensor, const std::stop_token& stop) {
+  for (Entry& entry : entries_) {
+    if (stop.stop_requested()) return;
+    if (!entry.frame.sightings.empty()) FindPoseAgain(map, sensor, &entry.frame);
+  }
 }
 
 std::vector<StampedPose> TrajectoryLog::Camera(const Map& map) const {
@@ -43,7 +77,7 @@ std::vector<StampedPose> TrajectoryLog::KeyFrames(const Map& map) const {
   }
   std::vector<StampedPose> poses;
   for (const Placed& placed : Place(map)) {
-    if (frames.contains(placed.entry->frame))
+    if (frames.contains(placed.entry->frame.id))
       poses.push_back({placed.entry->timestamp_text, placed.world_from_camera});
   }
   return poses;
@@ -55,10 +89,11 @@ std::vector<TrajectoryLog::Placed> TrajectoryLog::Place(const Map& map) const {
   {
     const auto guard = map.Read();
     for (const Entry& entry : entries_) {
-      const auto reference_from_world = guard->CameraFromWorld(entry.reference);
+      const PastFrame& frame = entry.frame;
+      const auto reference_from_world = guard->CameraFromWorld(frame.reference);
       if (!reference_from_world) continue;
-      const Rigid3d world_from_camera = Inverse(entry.camera_from_reference * *reference_from_world);
-      poses.push_back({entry.timestamp_s, world_from_camera, entry.pose_information});
+      const Rigid3d world_from_camera = Inverse(frame.camera_from_reference * *reference_from_world);
+      poses.push_back({frame.timestamp_s, world_from_camera, frame.pose_information});
       all.push_back({&entry, Rigid3d()});
     }
   }

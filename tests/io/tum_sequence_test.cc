@@ -35,6 +35,19 @@ TEST(TumSequence, ReadsAssociationsHoweverTheyAreSeparated) {
   EXPECT_EQ(sequence->entries[1].depth_path, "/data/depth/b.png");
   EXPECT_EQ(sequence->entries[2].rgb_path, "/abs/c.png");
   EXPECT_EQ(sequence->entries[2].timestamp_text, "1.7000");
+  for (const RgbdEntry& entry : sequence->entries) EXPECT_NEAR(entry.depth_delay_s, 0.01, 1e-9);
+}
+
+TEST(TumSequence, DepthTimesOfAnotherClockTellNoDelay) {
+  const TempDir dir;
+  const std::string list = dir.Write("list.txt", "1 a 0.95 b\n2 a 7002 b\n3 a 7003 b\n4 a 4 b\n");
+  const Result<TumSequence> sequence = ReadTumSequence("", list);
+  ASSERT_TRUE(sequence.ok());
+  std::vector<double> delays_s;
+  for (const RgbdEntry& entry : sequence->entries) delays_s.push_back(entry.depth_delay_s);
+  EXPECT_THAT(delays_s, ElementsAre(testing::DoubleNear(-0.05, 1e-9), 0, 0, 0));
+  EXPECT_THAT(sequence->warnings,
+              ElementsAre(HasSubstr("list.txt: 2 depth images are more than 0.1 s away")));
 }
 
 TEST(TumSequence, BadLinesAreSkippedCountedAndTold) {
@@ -68,6 +81,8 @@ TEST(TumSequence, PairsTheTwoListsWhenThereAreNoAssociations) {
   EXPECT_EQ(sequence->entries[0].timestamp_text, "1.03");
   EXPECT_EQ(sequence->entries[0].depth_path, dir.Path("depth/1"));
   EXPECT_EQ(sequence->entries[1].depth_path, dir.Path("depth/2"));
+  EXPECT_NEAR(sequence->entries[0].depth_delay_s, -0.005, 1e-9);
+  EXPECT_NEAR(sequence->entries[1].depth_delay_s, -0.01, 1e-9);
   EXPECT_THAT(sequence->warnings, ElementsAre(HasSubstr("depth.txt:4: expected 2 fields")));
 }
 

@@ -18,7 +18,9 @@ class LoopCorrectorTest : public Ring {
     loop_ = VerifyLoop(options_, sensor_, places_, map_, Id(kCurrent), Id(kOld)).value();
   }
   bool Close() { return CloseLoop(options_, sensor_, loop_, &turn_, &map_); }
-  bool Adjust(std::stop_token stop = {}) { return AdjustGlobally(options_, sensor_, stop, &turn_, &map_); }
+  bool Adjust(std::stop_token stop = {}) {
+    return AdjustGlobally(options_, sensor_, {}, stop, &turn_, &map_);
+  }
 
   /// Lets global bundle adjustment run up to where it wants the turn, edits the map, and lets it go on.
   template <class Edit>

@@ -90,7 +90,8 @@ TEST_P(BundleAdjusterTest, PointsAloneCanBeAdjusted) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, BundleAdjusterTest,
                          ::testing::Values(BundleOptions::Solver::kDenseSchur,
-                                           BundleOptions::Solver::kSparseSchur));
+                                           BundleOptions::Solver::kSparseSchur,
+                                           BundleOptions::Solver::kIterativeSchur));
 
 TEST(BundleAdjuster, StoppedBeforeItStartsChangesNothing) {
   Rng rng(6);

@@ -144,5 +144,54 @@ TEST_F(MapBundleTest, WhatIsGoneMeanwhileIsPassedOver) {
   ExpectSound();
 }
 
+TEST_F(MapBundleTest, AFrameThatIsNoKeyFrameAddsWhatItSaw) {
+  const Rigid3d truth{So3Exp({0, 0.12, 0}), {0.02, 0, 0}};
+  Frame frame = SeeAndKnow(truth);
+  const PastFrame past{frame.id, frame.timestamp_s, a_, truth * Inverse(Pose(a_)), {}, SightingsOf(frame)};
+  const MapBundle before = Gather(moving_);
+  MapBundle bundle = before;
+  AddFrame(*map_.Read(), sensor_, past, &bundle);
+  EXPECT_EQ(bundle.keyframes, before.keyframes);
+  ASSERT_EQ(bundle.problem.poses.size(), before.problem.poses.size() + 1);
+  EXPECT_FALSE(bundle.problem.poses.back().is_fixed);
+  EXPECT_THAT(bundle.problem.poses.back().camera_from_world, Rigid3dNear(truth, 1e-9, 1e-9));
+  const std::set<MapPointId> points(bundle.points.begin(), bundle.points.end());
+  const auto num_shared =
+      std::ranges::count_if(past.sightings, [&](const Sighting& s) { return points.contains(s.point); });
+  EXPECT_GT(num_shared, 50);
+  EXPECT_LT(num_shared, std::ssize(past.sightings)) << "it also sees what the bundle is not about";
+  ASSERT_EQ(std::ssize(bundle.problem.observations), std::ssize(before.problem.observations) + num_shared);
+  for (size_t i = before.problem.observations.size(); i < bundle.problem.observations.size(); ++i) {
+    const BundleObservation& o = bundle.problem.observations[i];
+    const Eigen::Vector3d x = truth * bundle.problem.points[o.point];
+    EXPECT_LT(sensor_.intrinsics.ReprojectionError(x, o.pixel).squaredNorm() * o.inverse_variance, 9);
+  }
+}
+
+TEST_F(MapBundleTest, WhatOtherFramesGotWrongIsNotTakenFromTheMap) {
+  Frame frame = SeeAndKnow(Pose(a_));
+  MapBundle bundle = Gather(moving_);
+  BundleSummary summary = AllInliers(bundle);
+  const PastFrame past{frame.id, frame.timestamp_s, a_, Rigid3d(), {}, SightingsOf(frame)};
+  AddFrame(*map_.Read(), sensor_, past, &bundle);
+  summary.is_inlier.resize(bundle.problem.observations.size(), 0);
+  const auto num_observations = [&] {
+    size_t sum = 0;
+    for (const MapPoint& point : map_.Read()->MapPoints()) sum += point.observations.size();
+    return sum;
+  };
+  const size_t before = num_observations();
+  EXPECT_TRUE(Apply(bundle, summary));
+  EXPECT_EQ(num_observations(), before);
+}
+
+TEST_F(MapBundleTest, AFrameOfAnUnknownKeyFrameAddsNothing) {
+  const Frame frame = SeeAndKnow(Pose(a_));
+  MapBundle bundle = Gather(moving_);
+  const size_t num_poses = bundle.problem.poses.size();
+  AddFrame(*map_.Read(), sensor_, {frame.id, 0, KeyFrameId(77), Rigid3d(), {}, SightingsOf(frame)}, &bundle);
+  EXPECT_EQ(bundle.problem.poses.size(), num_poses);
+}
+
 }  // namespace
 }  // namespace orbslam::test

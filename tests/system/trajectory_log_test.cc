@@ -35,11 +35,50 @@ TEST_F(TrajectoryLogTest, PosesAreThoseRelativeToTheKeyFrame) {
 }
 
 TEST_F(TrajectoryLogTest, ARevisedPoseReplacesTheFirst) {
-  log_.Revise({FrameId(1), PoseOf(7), Matrix6d::Identity()});
+  log_.Revise({FrameId(1), 0.1, reference_, PoseOf(7), Matrix6d::Identity(), {}});
   ASSERT_EQ(log_.Camera(map_).size(), 3u);
   ExpectPose(0, PoseOf(0));
   ExpectPose(1, PoseOf(7));
   ExpectPose(2, PoseOf(2));
+}
+
+TEST_F(TrajectoryLogTest, PosesAreFoundAgainWhereSightingsAreKnown) {
+  const Rigid3d truth = PoseOf(0.3) * reference_from_world_;
+  const Frame seen = SeeAndKnow(truth);
+  log_.Revise({FrameId(1), 0.1, reference_, PoseOf(0.4), Matrix6d::Identity(), SightingsOf(seen)});
+  log_.FindPosesAgain(map_, sensor_, {});
+  ExpectPose(0, PoseOf(0));
+  EXPECT_THAT(log_.Camera(map_)[1].world_from_camera, Rigid3dNear(Inverse(truth), kMaxErrorM, kMaxErrorRad));
+  ExpectPose(2, PoseOf(2));
+}
+
+TEST_F(TrajectoryLogTest, AStopLeavesPosesAsTheyAre) {
+  const Frame seen = SeeAndKnow(PoseOf(0.3) * reference_from_world_);
+  log_.Revise({FrameId(1), 0.1, reference_, PoseOf(0.4), Matrix6d::Identity(), SightingsOf(seen)});
+  std::stop_source stop;
+  stop.request_stop();
+  log_.FindPosesAgain(map_, sensor_, stop.get_token());
+  ExpectPose(1, PoseOf(0.4));
+}
+
+TEST(TrajectoryLogSample, IsSpreadInTimeOverFramesThatSawAnything) {
+  TrajectoryLog log{MotionPrior{}};
+  constexpr uint32_t kNumFrames = 300;
+  for (uint32_t i = 0; i < kNumFrames; ++i) {
+    FrameReport report{.id = FrameId(i), .timestamp_s = i / 30.0, .world_from_camera = Rigid3d()};
+    log.Add({.id = FrameId(i), .timestamp_s = report.timestamp_s}, report);
+    if (i < 100 || i >= 200)
+      log.Revise({FrameId(i), report.timestamp_s, {}, {}, {}, std::vector<Sighting>(1)});
+  }
+  const auto all = log.Sample(/*min_interval_s=*/0.2, /*max_count=*/1000);
+  EXPECT_NEAR(static_cast<double>(all.size()), 200 / 6.0, 4);
+  for (const PastFrame* frame : all) EXPECT_FALSE(frame->sightings.empty());
+  for (size_t i = 1; i < all.size(); ++i) EXPECT_GE(all[i]->timestamp_s - all[i - 1]->timestamp_s, 0.2);
+  const auto few = log.Sample(0.2, 8);
+  ASSERT_EQ(few.size(), 8u);
+  EXPECT_EQ(few.front(), all.front());
+  for (size_t i = 1; i < few.size(); ++i) EXPECT_GT(few[i]->timestamp_s, few[i - 1]->timestamp_s);
+  EXPECT_GT(few.back()->timestamp_s, 8.0);
 }
 
 /// One frame a tenth of a second, of which the third jumps by a hand's breadth.
@@ -63,7 +102,7 @@ TEST_F(SmoothedLogTest, PosesAreSmoothAsFarAsTheyAreNotKnown) {
   for (uint32_t i = 0; i < 7; ++i) Add(i, i == 3 ? 3.4 : i, i == 3 ? 1 : 1e8);
   EXPECT_LT(DistanceM(3, 3), 0.005);
   EXPECT_LT(DistanceM(2, 2), 0.005);
-  smoothed_.Revise({FrameId(3), PoseOf(3.4), 1e10 * Matrix6d::Identity()});
+  smoothed_.Revise({FrameId(3), 0.3, reference_, PoseOf(3.4), 1e10 * Matrix6d::Identity(), {}});
   EXPECT_LT(DistanceM(3, 3.4), 0.01);
 }
 

@@ -16,6 +16,7 @@ struct RgbdEntry {
   std::string timestamp_text;  // the same as the file writes it; trajectories repeat it letter by letter
   std::string rgb_path;        // with the sequence's folder before it
   std::string depth_path;
+  double depth_delay_s = 0;  // the depth image was taken this much after the colour image
 };
 
 struct TumSequence {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include "orbslam/loop/loop_options.h"
 #include "orbslam/loop/loop_verifier.h"
 #include "orbslam/map/map.h"
 #include "orbslam/pipeline/edit_turn.h"
+#include "orbslam/pipeline/past_frame.h"
 #include "orbslam/pipeline/sensor.h"
 
 namespace orbslam {
@@ -17,7 +20,8 @@ bool CloseLoop(const LoopOptions& options, const Sensor& sensor, const Loop& loo
 
 /// Bundle adjustment of the whole map, applied in one step also to what was mapped meanwhile. False: stopped,
 /// discarded because the map was corrected meanwhile, or a numerical failure; the map is unchanged.
-bool AdjustGlobally(const LoopOptions& options, const Sensor& sensor, std::stop_token stop, EditTurn* turn,
-                    Map* map);
+/// others: frames that have seen the map too; many of them make its points exact.
+bool AdjustGlobally(const LoopOptions& options, const Sensor& sensor,
+                    std::span<const PastFrame* const> others, std::stop_token stop, EditTurn* turn, Map* map);
 
 }  // namespace orbslam

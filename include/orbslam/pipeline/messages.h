@@ -10,6 +10,7 @@
 
 #include "orbslam/geometry/rigid3.h"
 #include "orbslam/pipeline/dynamic_mask.h"
+#include "orbslam/pipeline/past_frame.h"
 #include "orbslam/util/ids.h"
 
 namespace orbslam {
@@ -21,6 +22,7 @@ struct RgbdImage {
   std::string timestamp_text;  // as it is to stand in trajectories; empty: timestamp_s with 6 decimals
   cv::Mat gray;                // CV_8UC1, raw (distorted)
   cv::Mat depth_m;             // CV_32FC1, registered to gray, metres; 0: no measurement
+  double depth_delay_s = 0;    // depth was taken this much after gray
 };
 
 enum class TrackingState { kNotInitialized, kOk, kLost };
@@ -54,13 +56,6 @@ struct MapperLoad {
 /// camera's predicted motion since the last frame (now_from_last); may wait.
 using MaskOfFrame = std::function<DynamicMask(const Rigid3d& now_from_last)>;
 
-/// What Tracking says of a frame some time later, when the map knows better; relative to the same keyframe.
-struct RevisedPose {
-  FrameId frame;
-  Rigid3d camera_from_reference;
-  Matrix6d pose_information;  // UncertainPose's
-};
-
 /// What Tracking says of a frame.
 struct FrameReport {
   FrameId id;
@@ -78,7 +73,7 @@ struct FrameReport {
   double masked_share = 0;        // of the image, in [0, 1]
   int num_dropped_keypoints = 0;  // corners on moving objects, of all that were found
   std::optional<KeyFrameReady> new_keyframe;
-  std::vector<RevisedPose> revised;  // of earlier frames
+  std::vector<PastFrame> revised;  // earlier ones, whose pose was found again: the map knows better by now
 };
 
 }  // namespace orbslam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ class TrajectoryLog {
 
   /// Frames without a pose are not kept, but interrupt the motion.
   void Add(const RgbdImage& image, const FrameReport& report);
-  /// Of a frame that was added.
-  void Revise(const RevisedPose& revised);
+  /// Of a frame that was added: its later pose, and what it saw.
+  void Revise(PastFrame revised);
+  /// Frames whose sightings are known, with at least this time between them, and no more than that many.
+  std::vector<const PastFrame*> Sample(double min_interval_s, int max_count) const;
+  /// Looks for the pose of every frame whose sightings are known once more: after the map was adjusted.
+  void FindPosesAgain(const Map& map, const Sensor& sensor, const std::stop_token& stop);
 
   /// One pose a tracked frame, smoothed.
   std::vector<StampedPose> Camera(const Map& map) const;
@@ -32,12 +37,8 @@ class TrajectoryLog {
 
  private:
   struct Entry {
-    FrameId frame;
-    double timestamp_s;
+    PastFrame frame;
     std::string timestamp_text;
-    KeyFrameId reference;
-    Rigid3d camera_from_reference;
-    Matrix6d pose_information;
     int stretch;  // frames of one have followed one another with a pose each
   };
   struct Placed {
@@ -47,7 +48,7 @@ class TrajectoryLog {
   std::vector<Placed> Place(const Map& map) const;
 
   const MotionPrior prior_;
-  std::vector<Entry> entries_;  // ascending in frame
+  std::vector<Entry> entries_;  // ascending in frame.id
   int stretch_ = 0;
 };
 

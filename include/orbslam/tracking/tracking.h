@@ -12,6 +12,7 @@
 #include "orbslam/tracking/local_map_tracker.h"
 #include "orbslam/tracking/mask_doubt.h"
 #include "orbslam/tracking/motion_model.h"
+#include "orbslam/tracking/motion_within_frame.h"
 #include "orbslam/tracking/moving_region.h"
 #include "orbslam/tracking/point_counter.h"
 #include "orbslam/tracking/point_judge.h"
@@ -39,7 +40,7 @@ class Tracking {
   void SetLocalizationMode(bool is_on) { makes_keyframes_ = !is_on; }
 
   /// The later poses of all frames that have none yet: for the end.
-  std::vector<RevisedPose> ReviseRest();
+  std::vector<PastFrame> ReviseRest();
 
   /// Time spent in each step, seconds.
   const StageTimer& timer() const { return timer_; }
@@ -49,8 +50,8 @@ class Tracking {
   OrbFeatures Describe(const cv::Mat& mask);
   DynamicMask AskForMask(double timestamp_s, const MaskOfFrame& mask_of_frame);
   void Initialize(Frame* frame, FrameReport* report);
-  void Track(const MapperLoad& mapper, Frame* frame, FrameReport* report);
-  void UpdateMotion(const std::shared_ptr<const FrameFeatures>& rolled, Frame* frame, FrameReport* report);
+  void Track(const RgbdImage& image, const MapperLoad& mapper, Frame* frame, FrameReport* report);
+  void UpdateMotion(const MovingView& view, Frame* frame, FrameReport* report);
   bool Locate(Frame* frame, FrameReport* report);
   bool FindFirstPose(Frame* frame);
   bool TakeBetterPose(Frame* frame);
@@ -59,7 +60,7 @@ class Tracking {
   bool WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
   void InsertKeyFrame(Frame* frame, FrameReport* report);
   void Remember(Frame frame, FrameReport* report);
-  std::vector<RevisedPose> Revise(double until_s);
+  std::vector<PastFrame> Revise(double until_s);
 
   const Sensor& sensor_;
   const TrackingOptions options_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "orbslam/tracking/rolling_shutter.h"
+#include "orbslam/tracking/motion_within_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ class RollingShutterTest : public testing::Test {
   }
 
   std::shared_ptr<const FrameFeatures> Undo(const FrameFeatures& rolled) const {
-    return UndoRollingShutter(std::make_shared<const FrameFeatures>(rolled), sensor_, motion_);
+    return AtOneInstant({std::make_shared<const FrameFeatures>(rolled), {}, 0}, sensor_, motion_);
   }
 
   Sensor sensor_ = RollingSensor();
@@ -105,11 +105,89 @@ TEST_F(RollingShutterTest, KeypointsAreFoundWhereTheyAreNow) {
 }
 
 TEST_F(RollingShutterTest, NothingChangesAtRestOrWithAllRowsAtOnce) {
-  const auto features = std::make_shared<const FrameFeatures>(Still());
-  EXPECT_EQ(UndoRollingShutter(features, sensor_, MotionModel()), features);
+  const MovingView view{std::make_shared<const FrameFeatures>(Still()), {}, 0};
+  EXPECT_EQ(AtOneInstant(view, sensor_, MotionModel()), view.features);
   Move(/*speed=*/1);
+  EXPECT_FALSE(view.IsOfOneInstant(sensor_));
   sensor_.camera.readout_s = 0;
-  EXPECT_EQ(UndoRollingShutter(features, sensor_, motion_), features);
+  EXPECT_TRUE(view.IsOfOneInstant(sensor_));
+  EXPECT_EQ(AtOneInstant(view, sensor_, motion_), view.features);
+}
+
+/// Keypoints on a wall aslant, whose depth is measured before or after the picture.
+class LateDepthTest : public RollingShutterTest {
+ protected:
+  LateDepthTest() { sensor_.camera.readout_s = 0; }
+
+  /// Where the ray through a pixel meets the wall, from a camera that has moved so.
+  double WallDepthM(const Eigen::Vector2d& pixel, const Rigid3d& camera_from_start) const {
+    const Eigen::Vector3d ray = sensor_.camera.Unproject(pixel.x(), pixel.y(), 1);
+    const Rigid3d start_from_camera = Inverse(camera_from_start);
+    const Eigen::Vector3d turned = start_from_camera.rotation * ray;
+    return (kWallM - kNormal.dot(start_from_camera.translation)) / kNormal.dot(turned);
+  }
+  cv::Mat WallSeenAfter(double delay_s) const {
+    cv::Mat depth_m(sensor_.camera.height, sensor_.camera.width, CV_32FC1);
+    const Rigid3d later_from_now = motion_.Predict(Rigid3d(), delay_s);
+    for (int v = 0; v < depth_m.rows; ++v) {
+      for (int u = 0; u < depth_m.cols; ++u) {
+        const cv::Point2f raw(static_cast<float>(u), static_cast<float>(v));
+        const cv::Point2f pixel = sensor_.camera.Undistort({raw})[0];
+        depth_m.at<float>(v, u) = static_cast<float>(WallDepthM({pixel.x, pixel.y}, later_from_now));
+      }
+    }
+    return depth_m;
+  }
+  /// What the depth image, as it is, says of keypoints.
+  FrameFeatures Read(const cv::Mat& depth_m) {
+    OrbFeatures raw;
+    for (int i = 0; i < 200; ++i) {
+      raw.keypoints.push_back(
+          {static_cast<float>(60 + rng_.Below(520)), static_cast<float>(60 + rng_.Below(360)), 0, 30, 0});
+      raw.descriptors.emplace_back();
+    }
+    return MakeFrameFeatures(raw, depth_m, sensor_.camera, sensor_.bounds, sensor_.depth);
+  }
+  double LargestErrorM(const FrameFeatures& features) const {
+    double largest_m = 0;
+    for (int i = 0; i < features.size(); ++i) {
+      const Eigen::Vector2d pixel(features.pixels[i].x, features.pixels[i].y);
+      largest_m = std::max(largest_m, std::abs(features.depths_m[i] - WallDepthM(pixel, Rigid3d())));
+    }
+    return largest_m;
+  }
+
+  const Eigen::Vector3d kNormal = Eigen::Vector3d(0.6, 0.2, 1).normalized();
+  static constexpr double kWallM = 2;
+};
+
+TEST_F(LateDepthTest, IsCarriedToThePicturesTime) {
+  for (const double delay_s : {0.015, -0.015}) {
+    Move(/*speed=*/1);
+    const cv::Mat depth_m = WallSeenAfter(delay_s);
+    const auto raw = std::make_shared<const FrameFeatures>(Read(depth_m));
+    const auto features = AtOneInstant({raw, depth_m, delay_s}, sensor_, motion_);
+    EXPECT_GT(LargestErrorM(*raw), 0.008);
+    EXPECT_LT(LargestErrorM(*features), 0.004) << "half a pixel of a wall aslant";
+    EXPECT_LT(LargestDistancePx(*features, *raw), 0.01) << "the picture itself is of one instant";
+    for (int i = 0; i < features->size(); ++i) {
+      EXPECT_NEAR(features->right_u[i],
+                  sensor_.depth.RightCoordinate(features->pixels[i].x, features->depths_m[i]), 1e-3);
+    }
+  }
+}
+
+TEST_F(LateDepthTest, IsFoundWhereThePictureHasNone) {
+  Move(/*speed=*/1);
+  const cv::Mat depth_m = WallSeenAfter(0.015);
+  FrameFeatures raw = Read(depth_m);
+  raw.depths_m[0] = raw.right_u[0] = -1;
+  const auto features =
+      AtOneInstant({std::make_shared<const FrameFeatures>(raw), depth_m, 0.015}, sensor_, motion_);
+  EXPECT_LT(LargestErrorM(*features), 0.004);
+  const auto without =
+      AtOneInstant({std::make_shared<const FrameFeatures>(raw), 0 * depth_m, 0.015}, sensor_, motion_);
+  for (int i = 0; i < without->size(); ++i) EXPECT_FALSE(without->HasDepth(i));
 }
 
 }  // namespace
