@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/system/trajectory_log.h"
 
+#include <functional>
+
 #include "tracking/synthetic_map.h"
 
 namespace orbslam::test {
@@ -61,15 +63,26 @@ TEST_F(TrajectoryLogTest, AStopLeavesPosesAsTheyAre) {
   ExpectPose(1, PoseOf(0.4));
 }
 
-TEST(TrajectoryLogSample, IsSpreadInTimeOverFramesThatSawAnything) {
+/// A log of frames at 30 Hz; what those saw of which it is asked is known.
+TrajectoryLog LogOfSightings(uint32_t num_frames, const std::function<bool(uint32_t)>& has_sightings) {
   TrajectoryLog log{MotionPrior{}};
-  constexpr uint32_t kNumFrames = 300;
-  for (uint32_t i = 0; i < kNumFrames; ++i) {
+  for (uint32_t i = 0; i < num_frames; ++i) {
     FrameReport report{.id = FrameId(i), .timestamp_s = i / 30.0, .world_from_camera = Rigid3d()};
     log.Add({.id = FrameId(i), .timestamp_s = report.timestamp_s}, report);
-    if (i < 100 || i >= 200)
-      log.Revise({FrameId(i), report.timestamp_s, {}, {}, {}, std::vector<Sighting>(1)});
+    if (has_sightings(i)) log.Revise({FrameId(i), report.timestamp_s, {}, {}, {}, std::vector<Sighting>(1)});
   }
+  return log;
+}
+
+TEST(TrajectoryLogSample, OfHoursIsOfTheirEnd) {
+  const TrajectoryLog log = LogOfSightings(20010, [](uint32_t) { return true; });
+  const auto all = log.Sample(0, 100000);
+  EXPECT_EQ(all.size(), 20000u) << "memory is bounded";
+  EXPECT_EQ(all.front()->id, FrameId(10));
+}
+
+TEST(TrajectoryLogSample, IsSpreadInTimeOverFramesThatSawAnything) {
+  const TrajectoryLog log = LogOfSightings(300, [](uint32_t i) { return i < 100 || i >= 200; });
   const auto all = log.Sample(/*min_interval_s=*/0.2, /*max_count=*/1000);
   EXPECT_NEAR(static_cast<double>(all.size()), 200 / 6.0, 4);
   for (const PastFrame* frame : all) EXPECT_FALSE(frame->sightings.empty());
