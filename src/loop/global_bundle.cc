@@ -18,7 +18,18 @@ BundleOptions OfKeyFrames(const LoopOptions& options) {
 BundleOptions OfManyFrames(const LoopOptions& options) {
   return {.solver = BundleOptions::Solver::kIterativeSchur,
           .robust_iterations = options.bundle_iterations,
-          .final_iterations = 3 * options.bundle_iterations};
+          .final_iterations = 3 * options.bundle_iterations,
+          .max_point_error_ratio = 4};
+}
+
+/// Who sways in his chair was mapped, and silhouettes are nowhere: with many frames it shows.
+void ErasePointsWithoutInlier(const MapBundle& bundle, const BundleSummary& summary, MapData* map) {
+  std::vector<char> has_inlier(bundle.points.size(), 0);
+  for (size_t i = 0; i < summary.is_inlier.size(); ++i)
+    has_inlier[bundle.problem.observations[i].point] |= summary.is_inlier[i];
+  for (size_t i = 0; i < bundle.points.size(); ++i) {
+    if (!has_inlier[i] && map->Find(bundle.points[i]) != nullptr) map->EraseMapPoint(bundle.points[i]);
+  }
 }
 
 }  // namespace
@@ -49,6 +60,7 @@ bool AdjustGlobally(const LoopOptions& options, const Sensor& sensor,
   const auto guard = map->Write();
   if (guard->epoch() != bundle.epoch) return false;
   CorrectMap(correction, &*guard);
+  if (!others.empty()) ErasePointsWithoutInlier(bundle, summary, &*guard);
   return true;
 }
 

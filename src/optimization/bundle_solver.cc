@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optimization/bundle_solver.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "optimization/stop_callback.h"
@@ -21,6 +23,12 @@ ceres::LinearSolverType CeresType(BundleOptions::Solver solver) {
       return ceres::ITERATIVE_SCHUR;
   }
   return ceres::DENSE_SCHUR;
+}
+
+double MedianOf(std::vector<double>* values) {
+  const auto median = values->begin() + std::ssize(*values) / 2;
+  std::ranges::nth_element(*values, median);
+  return *median;
 }
 
 bool IsMono(const BundleObservation& o) { return o.pixel.z() < 0; }
@@ -116,20 +124,47 @@ ceres::Solver::Summary BundleSolver::Solve(int max_iterations, double function_t
   return summary;
 }
 
-std::vector<char> BundleSolver::Classify() const {
+std::vector<double> BundleSolver::Chi2() const {
   std::vector<Rigid3d> poses;
   poses.reserve(poses_.size());
   for (const PoseBlock& block : poses_) poses.push_back(block.Pose());
-  std::vector<char> is_inlier(input_.observations.size(), 0);
-  for (size_t i = 0; i < is_inlier.size(); ++i) {
-    const BundleObservation& o = input_.observations[i];
+  std::vector<double> chi2;
+  chi2.reserve(input_.observations.size());
+  for (const BundleObservation& o : input_.observations) {
     const Eigen::Vector3d x = poses[o.pose] * points_[o.point];
-    if (!(x.z() >= kMinDepthM)) continue;
-    const Eigen::Vector3d error = input_.intrinsics.ReprojectionError(x, o.pixel);
-    const double max_chi2 = IsMono(o) ? options_.max_chi2_mono : options_.max_chi2_stereo;
-    is_inlier[i] = o.inverse_variance * error.squaredNorm() <= max_chi2;
+    chi2.push_back(x.z() >= kMinDepthM
+                       ? o.inverse_variance * input_.intrinsics.ReprojectionError(x, o.pixel).squaredNorm()
+                       : std::numeric_limits<double>::infinity());
   }
+  return chi2;
+}
+
+std::vector<char> BundleSolver::Classify() const {
+  const std::vector<double> chi2 = Chi2();
+  std::vector<char> is_inlier(chi2.size());
+  for (size_t i = 0; i < chi2.size(); ++i) {
+    const bool is_mono = IsMono(input_.observations[i]);
+    is_inlier[i] = chi2[i] <= (is_mono ? options_.max_chi2_mono : options_.max_chi2_stereo);
+  }
+  if (options_.max_point_error_ratio > 0) RejectUnsteadyPoints(chi2, &is_inlier);
   return is_inlier;
+}
+
+void BundleSolver::RejectUnsteadyPoints(const std::vector<double>& chi2, std::vector<char>* is_inlier) const {
+  constexpr size_t kMany = 10;  // observations: their median is then known to a third
+  std::vector<std::vector<double>> of_point(points_.size());
+  for (size_t i = 0; i < chi2.size(); ++i) of_point[input_.observations[i].point].push_back(chi2[i]);
+  std::vector<double> medians(points_.size(), 0), all;
+  for (size_t p = 0; p < of_point.size(); ++p) {
+    if (of_point[p].size() < kMany) continue;
+    medians[p] = MedianOf(&of_point[p]);
+    all.push_back(medians[p]);
+  }
+  if (all.empty()) return;
+  const double max_median = options_.max_point_error_ratio * MedianOf(&all);
+  for (size_t i = 0; i < chi2.size(); ++i) {
+    if (medians[input_.observations[i].point] > max_median) (*is_inlier)[i] = 0;
+  }
 }
 
 void BundleSolver::KeepOnly(const std::vector<char>& is_inlier) {

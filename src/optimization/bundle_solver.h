@@ -46,6 +46,8 @@ class BundleSolver {
 
   void AddParameters();
   void AddResiduals();
+  std::vector<double> Chi2() const;  // one an observation
+  void RejectUnsteadyPoints(const std::vector<double>& chi2, std::vector<char>* is_inlier) const;
 
   const BundleOptions options_;
   const BundleProblem& input_;

@@ -88,6 +88,26 @@ TEST_P(BundleAdjusterTest, PointsAloneCanBeAdjusted) {
   EXPECT_LT(error, 1e-3);
 }
 
+TEST_P(BundleAdjusterTest, APointThatSwaysIsNoPlaceIfMorePosesThanAFewSeeIt) {
+  for (const int views : {20, 5}) {
+    Rng rng(8);
+    test::BundleScene scene =
+        test::MakeBundleScene({.num_free_poses = 28, .num_points = 200, .views_per_point = views}, &rng);
+    for (BundleObservation& o : scene.problem.observations)
+      if (o.point == 0) o.pixel.head<2>() += Eigen::Vector2d::Constant(o.pose % 2 == 0 ? 3 : -3);
+    const BundleSummary summary =
+        SolveBundle({.solver = GetParam(), .max_point_error_ratio = 4}, {}, &scene.problem);
+    int num_of_swaying = 0, num_of_others = 0, num_others = 0;
+    for (size_t i = 0; i < summary.is_inlier.size(); ++i) {
+      const bool sways = scene.problem.observations[i].point == 0;
+      (sways ? num_of_swaying : num_of_others) += summary.is_inlier[i];
+      num_others += !sways;
+    }
+    EXPECT_EQ(num_of_swaying > 0, views == 5) << "a few can do that by chance";
+    EXPECT_GT(num_of_others, 0.93 * num_others);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, BundleAdjusterTest,
                          ::testing::Values(BundleOptions::Solver::kDenseSchur,
                                            BundleOptions::Solver::kSparseSchur,
