@@ -10,6 +10,12 @@ from support import OUTPUTS, TIMEOUT_S, RgbdTumTest, run_or_skip
 class Interrupt(RgbdTumTest):
     frames = 40
 
+    def write_times(self, times):
+        """A list of as many frames, the sequence's over and over, both images at the same time."""
+        entries = [self.sequence.entries[i % self.frames] for i in range(len(times))]
+        self.sequence.write_associations(
+            [[time, rgb, time, depth] for time, (_, rgb, _, depth) in zip(times, entries)])
+
     def interrupt(self, *options):
         """Runs it, sends SIGINT when the first frames are done, and checks what is left behind."""
         process = subprocess.Popen(self.command(*options), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -28,16 +34,14 @@ class Interrupt(RgbdTumTest):
 
     def test_at_full_speed(self):
         """A list long enough not to be through before the signal arrives."""
-        self.sequence.write_associations(
-            [[f"{i / 30:.6f}", *self.sequence.entries[i % self.frames][1:]] for i in range(20000)])
+        self.write_times([f"{i / 30:.6f}" for i in range(20000)])
         for mode in ([], ["--sequential"]):
             with self.subTest(mode=mode):
                 self.interrupt(*mode)
 
     def test_while_waiting_for_the_next_frame(self):
         """Frames ten minutes apart: all that happens after the first one is waiting."""
-        self.sequence.write_associations(
-            [[f"{600 * i}", *entry[1:]] for i, entry in enumerate(self.sequence.entries)])
+        self.write_times([f"{600 * i}" for i in range(self.frames)])
         self.interrupt("--realtime")
 
 
