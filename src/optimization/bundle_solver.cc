@@ -151,7 +151,8 @@ std::vector<char> BundleSolver::Classify() const {
 }
 
 void BundleSolver::RejectUnsteadyPoints(const std::vector<double>& chi2, std::vector<char>* is_inlier) const {
-  constexpr size_t kMany = 10;  // observations: their median is then known to a third
+  constexpr size_t kMany = 10;     // observations: their median is then known to a third
+  constexpr double kLeast = 0.01;  // a tenth of a standard deviation: no corner is found better
   std::vector<std::vector<double>> of_point(points_.size());
   for (size_t i = 0; i < chi2.size(); ++i) of_point[input_.observations[i].point].push_back(chi2[i]);
   std::vector<double> medians(points_.size(), 0), all;
@@ -161,7 +162,7 @@ void BundleSolver::RejectUnsteadyPoints(const std::vector<double>& chi2, std::ve
     all.push_back(medians[p]);
   }
   if (all.empty()) return;
-  const double max_median = options_.max_point_error_ratio * MedianOf(&all);
+  const double max_median = options_.max_point_error_ratio * std::max(kLeast, MedianOf(&all));
   for (size_t i = 0; i < chi2.size(); ++i) {
     if (medians[input_.observations[i].point] > max_median) (*is_inlier)[i] = 0;
   }

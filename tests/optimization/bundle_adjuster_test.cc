@@ -38,6 +38,15 @@ TEST_P(BundleAdjusterTest, RecoversPosesAndPointsWithoutNoise) {
   for (char inlier : summary.is_inlier) EXPECT_TRUE(inlier);
 }
 
+TEST_P(BundleAdjusterTest, WithoutNoiseEveryPointIsOnePlace) {
+  Rng rng(1);
+  test::BundleScene scene =
+      test::MakeBundleScene({.num_free_poses = 28, .views_per_point = 20, .noise_px = 0}, &rng);
+  const BundleSummary summary = SolveBundle(
+      {.solver = GetParam(), .robust_iterations = 30, .max_point_error_ratio = 4}, {}, &scene.problem);
+  for (char inlier : summary.is_inlier) EXPECT_TRUE(inlier);
+}
+
 TEST_P(BundleAdjusterTest, TellsOutliersFromInliers) {
   Rng rng(2);
   test::BundleScene scene = test::MakeBundleScene({.noise_px = 0.5, .outlier_share = 0.1}, &rng);
