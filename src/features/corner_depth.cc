@@ -7,8 +7,8 @@
 namespace orbslam {
 namespace {
 
-constexpr int kReachPx = 2;      // of ragged silhouettes (Kinect: Khoshelham and Elberink, Sensors 2012)
-constexpr double kJumpPx = 1;    // of disparity: its standard deviation in the optimisers
+constexpr int kReachPx = 2;    // of ragged silhouettes (Kinect: Khoshelham and Elberink, Sensors 2012)
+constexpr double kJumpPx = 1;  // of disparity: its standard deviation in the optimisers
 
 /// Disparity, px: what is in front has more of it.
 double DisparityAt(const cv::Mat& depth_m, int u, int v, double baseline_times_fx) {

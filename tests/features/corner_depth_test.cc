@@ -44,7 +44,8 @@ TEST(CornerDepth, WithinASurfaceIsThatOfThePixel) {
   cv::Mat depth_m(48, 64, CV_32FC1);
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u)  // 45 degrees aslant
-      depth_m.at<float>(v, u) = 2 + 0.004f * static_cast<float>(u) + static_cast<float>(rng.Uniform(-0.01, 0.01));
+      depth_m.at<float>(v, u) =
+          2 + 0.004f * static_cast<float>(u) + static_cast<float>(rng.Uniform(-0.01, 0.01));
   }
   for (int u = 0; u < depth_m.cols; ++u) EXPECT_EQ(At(depth_m, u, 7), depth_m.at<float>(7, u));
 }

@@ -19,8 +19,12 @@ class GlobalBundleTest : public SyntheticMap {
     for (int i = 0; i < kNumFrames; ++i) {
       const Rigid3d truth = PoseAt(static_cast<double>(i) / kNumFrames);
       const Frame frame = SeeAndKnow(truth);
-      frames_.push_back({frame.id, frame.timestamp_s, reference_,
-                         RandomMotion(&rng_, 0.002, 0.005) * truth * Inverse(PoseAt(1)), {}, SightingsOf(frame)});
+      frames_.push_back({frame.id,
+                         frame.timestamp_s,
+                         reference_,
+                         RandomMotion(&rng_, 0.002, 0.005) * truth * Inverse(PoseAt(1)),
+                         {},
+                         SightingsOf(frame)});
     }
   }
   static Rigid3d PoseAt(double share) { return {So3Exp({0, 0.1 * share, 0}), {0.2 * share, 0, 0}}; }
@@ -77,7 +81,8 @@ TEST_F(GlobalBundleTest, WhatSwaysIsNoPlaceAndIsErased) {
   for (size_t i = 0; i < frames_.size(); ++i) {
     for (Sighting& sighting : frames_[i].sightings) {
       if (sighting.point != swaying) continue;
-      sighting.pixel.x() += (i % 20 < 10 ? 2.0f : -2.0f) * static_cast<float>(sensor_.pyramid.Scale(sighting.level));
+      sighting.pixel.x() +=
+          (i % 20 < 10 ? 2.0f : -2.0f) * static_cast<float>(sensor_.pyramid.Scale(sighting.level));
     }
   }
   const int num_points = map_.Read()->num_points();

@@ -16,7 +16,8 @@ class PastFrameTest : public SyntheticMap {
 
   PastFrame FrameWithWrongPose() {
     const Frame frame = SeeAndKnow(truth_);
-    return {frame.id, frame.timestamp_s, keyframe_, wrong_ * Inverse(keyframe_from_world_), {}, SightingsOf(frame)};
+    return {frame.id, frame.timestamp_s, keyframe_, wrong_ * Inverse(keyframe_from_world_),
+            {},       SightingsOf(frame)};
   }
   void ExpectTruth(const PastFrame& frame) const {
     EXPECT_THAT(frame.camera_from_reference,

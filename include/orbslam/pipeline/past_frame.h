@@ -30,9 +30,9 @@ struct PastFrame {
 std::vector<Sighting> SightingsOf(const Frame& frame);
 
 /// Looks for its pose once more, over the same sightings of a map that knows better by now: wrong points, and
-/// those on somebody who has set off since, are gone, the others have been adjusted. Sightings that do not
-/// agree are forgotten. False: it is a keyframe, whose pose is the map's, or most of its points are gone;
-/// then its pose stays.
+/// those on somebody who has set off since, are gone, the others have been adjusted. Sightings of
+/// points that are gone are forgotten. False: it is a keyframe, whose pose is the map's, or most of its
+/// points are gone; then its pose stays.
 bool FindPoseAgain(const Map& map, const Sensor& sensor, PastFrame* frame);
 
 }  // namespace orbslam
