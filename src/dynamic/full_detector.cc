@@ -8,6 +8,7 @@
 #include "motion_field.h"
 #include "plane_split.h"
 #include "sliding_surface.h"
+#include "whole_things.h"
 
 namespace orbslam {
 namespace {
@@ -21,7 +22,7 @@ FullDetector::FullDetector(const PinholeCamera& camera, const DynamicDetectorOpt
     : options_(options),
       reducer_(camera),
       history_(reducer_.grids().cell, options.references, camera.readout_s),
-      motion_estimator_(reducer_.grids(), options.camera_motion),
+      flow_judge_(reducer_.grids(), options),
       cluster_judge_(options.fusion, options.histogram) {}
 
 DynamicMask FullDetector::Process(const RgbdImage& image) {
@@ -35,13 +36,14 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   }
   Judgement judgement = EstimateMotion(*frame, image.id.value);
   const auto references =
-      judgement.is_trusted ? history_.FreeSpaceReferences() : std::vector<const ReferenceView*>();
+      judgement.motion.IsTrusted() ? history_.FreeSpaceReferences() : std::vector<const ReferenceView*>();
   Vote(*frame, references, &judgement);
   cv::Mat1b undecided;
   cv::compare(judgement.votes.confirmed_static, 0, undecided, cv::CMP_EQ);
   judgement.segmentation = SegmentSurfaces(reducer_.grids().cell, *frame, undecided, options_.segmentation);
   const HistogramWindow window(reducer_.grids().cell, history_, *frame, options_.histogram);
   JudgeClusters(*frame, window, &judgement);
+  JudgeThings(*frame, references, &judgement);
   JudgeDepthless(*frame, references, &judgement);
 
   result.fail_open_reason = FailOpenReason(judgement);
@@ -49,7 +51,7 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   Report(*frame, judgement, &result);
   log_odds_ = judgement.log_odds;
   history_.Add(frame, judgement.moving, window.current_cloud());
-  if (options_.hindsight.use_hindsight && judgement.is_trusted && judgement.flows.front().gate.IsSharp())
+  if (options_.hindsight.use_hindsight && judgement.motion.IsSharp())
     history_.LookBack(options_.free_space, options_.segmentation);
   return result;
 }
@@ -64,7 +66,7 @@ std::string FullDetector::ReasonToBegin(double timestamp_s) const {
 
 void FullDetector::Forget() {
   history_.Clear();
-  motion_estimator_.Reset();
+  flow_judge_.Reset();
   tracker_.Reset();
   untrusted_frames_ = covered_frames_ = 0;
 }
@@ -79,41 +81,18 @@ void FullDetector::Begin(std::shared_ptr<const WorkingFrame> frame) {
 
 FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, uint64_t seed) {
   Judgement judgement;
-  judgement.motion = motion_estimator_.Estimate(history_, frame, seed);
-  judgement.is_trusted = judgement.motion.failure.empty();
-  untrusted_frames_ = judgement.is_trusted ? 0 : untrusted_frames_ + 1;
-  history_.Advance(Inverse(judgement.motion.depth_current_from_previous),
-                   Inverse(judgement.motion.color_current_from_previous));
-  history_.AlignKeyframes(frame, judgement.motion.is_depth_misled);
-  judgement.flows = JudgeFlow(frame, seed, &judgement);
-  judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.corners);
+  judgement.motion = flow_judge_.Judge(frame, seed, &history_);
+  untrusted_frames_ = judgement.motion.IsTrusted() ? 0 : untrusted_frames_ + 1;
+  judgement.shift = BackwardMotion(frame.depth_m.size(), judgement.motion.camera.corners);
   judgement.carried = CarryOver(log_odds_, judgement.shift);
   return judgement;
-}
-
-std::vector<Flow> FullDetector::JudgeFlow(const WorkingFrame& frame, uint64_t seed, Judgement* judgement) {
-  std::vector<Flow> flows{MakeFlow(judgement->motion.corners, options_.corner_gate)};
-  const ReferenceView* older = history_.KeyframeOfAge(options_.slow_flow.age_frames);
-  if (!options_.slow_flow.use_slow_flow || !judgement->is_trusted || older == nullptr) return flows;
-  OlderCorners slow = motion_estimator_.FollowFrom(*older, *history_.Back(1), frame, seed);
-  if (slow.current_from_older) history_.CorrectColor(*older, Inverse(*slow.current_from_older));
-  if (slow.far) {
-    history_.CorrectDepth(*older, Inverse(slow.far->depth_current_from_earlier));
-    motion_estimator_.FollowFar(*history_.Back(1), frame, slow.far->split_m, seed, &judgement->motion);
-    flows.front() = MakeFlow(judgement->motion.corners, options_.corner_gate);
-  }
-  Flow flow = MakeFlow(std::move(slow.corners), options_.slow_flow.gate);
-  flow.far_alone_rests = slow.far.has_value();
-  if (flow.far_alone_rests || flow.gate.sharpness >= options_.slow_flow.min_sharpness)
-    flows.push_back(std::move(flow));
-  return flows;
 }
 
 void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                         Judgement* judgement) const {
   judgement->votes = VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
-  if (!options_.sliding.use_sliding || !judgement->is_trusted) return;
-  for (const Flow& flow : judgement->flows) {
+  if (!options_.sliding.use_sliding || !judgement->motion.IsTrusted()) return;
+  for (const Flow& flow : judgement->motion.flows) {
     if (!flow.gate.IsSharp() && !flow.far_alone_rests) continue;
     SlidingOptions options = options_.sliding;
     if (flow.far_alone_rests) {  // what is near moves: each of its corners speaks for the surface it is on
@@ -127,10 +106,11 @@ void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView
 void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window,
                                  Judgement* judgement) const {
   const Segmentation& segmentation = judgement->segmentation;
-  const bool can_ask = window.IsFull() && judgement->is_trusted;
+  const bool can_ask = window.IsFull() && judgement->motion.IsTrusted();
   judgement->verdicts = cluster_judge_.Judge(
-      segmentation, GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->flows),
-      can_ask ? &window : nullptr, judgement->motion.corners);
+      segmentation,
+      GatherFacts(segmentation, frame, judgement->votes, judgement->carried, judgement->motion.flows),
+      can_ask ? &window : nullptr, judgement->motion.camera.corners);
   judgement->moving = cv::Mat1b::zeros(frame.depth_m.size());
   judgement->log_odds = cv::Mat1f(frame.depth_m.size(), -1.f);
   for (size_t c = 0; c < judgement->verdicts.size(); ++c)
@@ -139,6 +119,20 @@ void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindo
       judgement->log_odds(cell) = std::clamp(log_odds, kMinLogOdds, kMaxLogOdds);
       if (log_odds > 0) judgement->moving(cell) = 255;
     }
+}
+
+/// Blur and the rolling shutter join what is apart.
+void FullDetector::JudgeThings(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
+                               Judgement* judgement) const {
+  const WholeThingOptions& options = options_.whole_things;
+  if (!options.use_whole_things || !judgement->motion.IsSharp()) return;
+  const GridCamera& camera = reducer_.grids().cell;
+  const cv::Mat1b rooted = RootedCells(camera, frame.depth_m, references, options);
+  const cv::Mat1b hanging_on = WholeThings(camera, frame, judgement->moving, rooted, options);
+  judgement->moving.setTo(255, hanging_on);
+  cv::Mat1f at_least;
+  cv::max(judgement->log_odds, options.log_odds, at_least);
+  at_least.copyTo(judgement->log_odds, hanging_on);
 }
 
 void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
@@ -152,9 +146,9 @@ void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const Ref
   BackgroundView background;
   if (options_.growth.use_background) background = RenderBackground(reducer_.grids().cell, frame, references);
   const std::vector<TrackedCorner> no_corners;
-  const cv::Mat1f odds =
-      DepthlessLogOdds(frame, judgement->carried, background,
-                       judgement->is_trusted ? judgement->motion.corners : no_corners, options_.growth);
+  const cv::Mat1f odds = DepthlessLogOdds(
+      frame, judgement->carried, background,
+      judgement->motion.IsTrusted() ? judgement->motion.camera.corners : no_corners, options_.growth);
   cv::Mat1b contact;
   cv::dilate(judgement->moving, contact, cv::Mat::ones(2 * kContactCells + 1, 2 * kContactCells + 1, CV_8U));
   const cv::Mat1b grown =
@@ -171,11 +165,11 @@ void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const Ref
 std::string FullDetector::FailOpenReason(const Judgement& judgement) {
   if (untrusted_frames_ > options_.fail_open.max_untrusted_frames) {
     Forget();
-    return "the camera's motion cannot be told: " + judgement.motion.failure;
+    return "the camera's motion cannot be told: " + judgement.motion.camera.failure;
   }
   const double masked_share =
       static_cast<double>(cv::countNonZero(judgement.moving)) / static_cast<double>(judgement.moving.total());
-  if (!judgement.is_trusted && masked_share == 0) return judgement.motion.failure;
+  if (!judgement.motion.IsTrusted() && masked_share == 0) return judgement.motion.camera.failure;
   const bool is_early = history_.Back(options_.fail_open.early_frames) == nullptr;
   if (is_early && masked_share > options_.fail_open.max_early_share) {
     Forget();

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "background_view.h"
-#include "camera_motion.h"
 #include "cluster_judge.h"
+#include "flow_judge.h"
 #include "free_space.h"
 #include "histogram_evidence.h"
 #include "object_tracker.h"
@@ -28,11 +28,9 @@ class FullDetector {
  private:
   /// What one frame's judgement passes from step to step; grids of cells.
   struct Judgement {
-    CameraMotion motion;
-    bool is_trusted = false;  // the motion, and with it the references
-    std::vector<Flow> flows;  // from the last frame; from an older one, unless it is too blurred
-    cv::Mat2f shift;          // where moving things were in the last frame
-    cv::Mat1f carried;        // log-odds of the last frame, there
+    FrameMotion motion;  // the references are to be trusted as far as it is
+    cv::Mat2f shift;     // where moving things were in the last frame
+    cv::Mat1f carried;   // log-odds of the last frame, there
     FreeSpaceVotes votes;
     Segmentation segmentation;
     std::vector<ClusterVerdict> verdicts;  // of each cluster
@@ -44,12 +42,12 @@ class FullDetector {
   std::string ReasonToBegin(double timestamp_s) const;
   void Forget();
   void Begin(std::shared_ptr<const WorkingFrame> frame);
-  /// Puts the motion right if it had followed something near.
-  std::vector<Flow> JudgeFlow(const WorkingFrame& frame, uint64_t seed, Judgement* judgement);
   Judgement EstimateMotion(const WorkingFrame& frame, uint64_t seed);
   void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
             Judgement* judgement) const;
   void JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window, Judgement* judgement) const;
+  void JudgeThings(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
+                   Judgement* judgement) const;
   void JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                       Judgement* judgement) const;
   void Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result);
@@ -58,7 +56,7 @@ class FullDetector {
   DynamicDetectorOptions options_;
   FrameReducer reducer_;
   SceneHistory history_;
-  CameraMotionEstimator motion_estimator_;
+  FlowJudge flow_judge_;
   ObjectTracker tracker_;
   ClusterJudge cluster_judge_;
   cv::Mat1f log_odds_;                             // of the last frame's cells

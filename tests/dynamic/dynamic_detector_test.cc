@@ -157,6 +157,7 @@ TEST(DynamicDetector, WorksWithEachSourceOfEvidenceOff) {
                                      [](auto& o) -> bool& { return o.sliding.use_sliding; },
                                      [](auto& o) -> bool& { return o.slow_flow.use_slow_flow; },
                                      [](auto& o) -> bool& { return o.camera_motion.far.use_far_motion; },
+                                     [](auto& o) -> bool& { return o.whole_things.use_whole_things; },
                                      [](auto& o) -> bool& { return o.growth.use_growth; },
                                      [](auto& o) -> bool& { return o.growth.use_background; },
                                      [](auto& o) -> bool& { return o.growth.use_corners; }};

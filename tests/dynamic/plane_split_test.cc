@@ -4,49 +4,16 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <functional>
 
-#include "normals.h"
+#include "depth_scene.h"
 
 namespace orbslam::test {
 namespace {
 
-const GridCamera kCamera{.width = 160, .height = 120, .fx = 130, .fy = 130, .cx = 79.5f, .cy = 59.5f};
-
-/// Depth of what a cell's ray, with z = 1, meets; 0: nothing.
-using Scene = std::function<float(float x, float y)>;
-
-WorkingFrame See(const Scene& scene) {
-  WorkingFrame frame;
-  frame.depth_m = cv::Mat1f(kCamera.height, kCamera.width);
-  for (int v = 0; v < kCamera.height; ++v)
-    for (int u = 0; u < kCamera.width; ++u)
-      frame.depth_m(v, u) = scene((static_cast<float>(u) - kCamera.cx) / kCamera.fx,
-                                  (static_cast<float>(v) - kCamera.cy) / kCamera.fy);
-  ComputeNormals(kCamera, &frame);
-  return frame;
-}
-
-/// A camera 1 m above a floor looks down by 45 degrees; the floor ends 3 m away.
-float Floor(float y) {
-  const float z = std::sqrt(2.f) / (1 + y);
-  return z > 0 && z < 3 ? z : 0;
-}
-/// An upright post of that radius, standing on it 1.2 m away.
-float PostOnFloor(float x, float y, float radius_m) {
-  const float floor = Floor(y), forward = 1.2f;
-  // In the floor's frame: forward and down components of the ray.
-  const float f = (1 - y) / std::sqrt(2.f), a = x * x + f * f, b = f * forward;
-  const float root = b * b - a * (forward * forward - radius_m * radius_m);
-  if (root < 0) return floor;
-  const float z = (b - std::sqrt(root)) / a;
-  return floor == 0 || z < floor ? z : floor;
-}
-
 int LabelAt(const Segmentation& segmentation, int u, int v) { return segmentation.labels(v, u); }
 
 Segmentation SegmentAll(const WorkingFrame& frame, const SegmentationOptions& options = {}) {
-  return SegmentSurfaces(kCamera, frame, cv::Mat1b(frame.depth_m.size(), uint8_t{255}), options);
+  return SegmentSurfaces(kCellCamera, frame, cv::Mat1b(frame.depth_m.size(), uint8_t{255}), options);
 }
 
 TEST(PlaneSplit, AFloorIsNoPartOfWhatStandsOnIt) {
@@ -76,7 +43,7 @@ TEST(PlaneSplit, EveryCellIsInTheClusterThatItsLabelNames) {
 TEST(PlaneSplit, WhatIsSmallOrRoundOrFoldedStaysWhole) {
   SegmentationOptions joined;
   joined.use_planes = false;
-  const auto is_whole = [&](const Scene& scene) {
+  const auto is_whole = [&](const DepthScene& scene) {
     const WorkingFrame frame = See(scene);
     return SegmentAll(frame).clusters.size() == SegmentAll(frame, joined).clusters.size();
   };

@@ -131,8 +131,8 @@ struct CornerGateOptions {
 struct SlowFlowOptions {
   bool use_slow_flow = true;
   int age_frames = 15;  // of the keyframe, half a second: who sits sways by 1 cm in it, 2 grey px at 1.5 m
-  // Five sigma, for half a second averages blur; but in it a rolling shutter bends the picture further.
-  CornerGateOptions gate{.multiple = 7.f, .max_sharp_px = 0.9f};
+  // Four sigma, for half a second averages blur; but in it a rolling shutter bends the picture further.
+  CornerGateOptions gate{.multiple = 5.f, .max_sharp_px = 0.65f};
   float min_sharpness = 0.5f;  // below 1 it only holds what moves already, for who sways may seem to rest
 };
 
@@ -150,6 +150,19 @@ struct SegmentationOptions {
   int min_cells = 20;         // the published 200 points are of a voxel grid; a hand at 2 m is 25 cells
   bool use_planes = true;     // large flat parts are judged by themselves
   float min_plane_m2 = 0.5f;  // what is as large and flat is a floor, a wall, a table, not a part of a person
+};
+
+/// What hangs together with something that moves.
+struct WholeThingOptions {
+  bool use_whole_things = true;
+  int min_moving_cells = 100;     // a forearm at 2 m
+  float min_moving_share = 0.1f;  // of the thing: an arm is a tenth of a person
+  float reach_m = 1.f;            // from what moves: half a person's height
+  float min_plane_m2 = 0.15f;     // what is as large and flat is furniture: a back is narrower, or rounder
+  float log_odds = 0.5f;    // that such a cell moves: next time it needs evidence of its own, but little
+  int min_age_frames = 15;  // of the references that root: half a second, in which who sways has moved
+  float gate_sigma = 2.f;   // of what they root: the depth noise of most cells,
+  float margin_m = 0.005f;  // and what the alignment leaves
 };
 
 /// Evidence about a cluster, log-odds.
@@ -225,6 +238,7 @@ struct DynamicDetectorOptions {
   SlowFlowOptions slow_flow;
   SlidingOptions sliding;
   SegmentationOptions segmentation;
+  WholeThingOptions whole_things;
   FusionOptions fusion;
   GrowthOptions growth;
   HistogramOptions histogram;

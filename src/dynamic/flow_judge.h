@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "camera_motion.h"
+#include "corner_gate.h"
+#include "scene_history.h"
+
+namespace orbslam {
+
+/// How the camera moved, and which corners did otherwise.
+struct FrameMotion {
+  CameraMotion camera;
+  std::vector<Flow> flows;  // from the last frame; from an older one, unless too blurred
+
+  bool IsTrusted() const { return camera.failure.empty(); }
+  bool IsSharp() const { return IsTrusted() && flows.front().gate.IsSharp(); }
+};
+
+/// Follows corners from the last frame and from a keyframe, and brings the history's poses up to date by
+/// them.
+class FlowJudge {
+ public:
+  FlowJudge(const WorkingGrids& grids, const DynamicDetectorOptions& options)
+      : options_(options), estimator_(grids, options.camera_motion) {}
+
+  /// seed: of the random draws, for example the frame's id.
+  FrameMotion Judge(const WorkingFrame& frame, uint64_t seed, SceneHistory* history);
+  void Reset() { estimator_.Reset(); }
+
+ private:
+  /// Puts the motion since the last frame right if it had followed something near.
+  std::optional<Flow> FlowSince(const ReferenceView& older, const WorkingFrame& frame, uint64_t seed,
+                                SceneHistory* history, CameraMotion* motion);
+
+  DynamicDetectorOptions options_;
+  CameraMotionEstimator estimator_;
+};
+
+}  // namespace orbslam
