@@ -53,13 +53,12 @@ cv::Mat1f DepthlessLogOdds(const WorkingFrame& frame, const cv::Mat1f& carried,
       weight(v, u) = 1;
       float value = options.memory * carried(v, u) + options.prior;
       float flow = options.use_corners ? std::clamp(from_corners(v, u), -1.f, 1.f) : 0.f;
-      if (options.use_background && background.depth_m(v, u) > 0) {
-        const bool agrees = gray(v, u) > background.darkest(v, u) - options.noise_gray &&
-                            gray(v, u) < background.brightest(v, u) + options.noise_gray;
-        value += agrees ? options.agrees : options.differs;
-        // What rests looks as before, too: corners of somebody who comes straight on hardly move.
-        if (!agrees) flow = std::max(flow, 0.f);
-      }
+      const bool is_known = options.use_background && background.depth_m(v, u) > 0;
+      const bool agrees = is_known && gray(v, u) > background.darkest(v, u) - options.noise_gray &&
+                          gray(v, u) < background.brightest(v, u) + options.noise_gray;
+      if (is_known) value += agrees ? options.agrees : options.differs;
+      // Corners of who comes straight on, or pauses, rest at some depth: what rests must look as before, too.
+      if (options.use_background && !agrees) flow = std::max(flow, 0.f);
       value += flow;
       log_odds(v, u) = value;
     }

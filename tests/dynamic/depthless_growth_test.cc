@@ -46,6 +46,17 @@ TEST(DepthlessLogOdds, RestingCornersSpeakOnlyForWhatLooksAsBefore) {
   EXPECT_GT(LogOdds(kGray + 50, {}), 0);
 }
 
+/// Somebody close has stopped, and hides all that could be aligned.
+TEST(DepthlessLogOdds, RestingCornersDoNotSpeakWhereNothingIsKnown) {
+  const BackgroundView unknown{Cells(0), Cells(0), Cells(0)};
+  const auto log_odds = [&](const std::vector<TrackedCorner>& corners) {
+    return DepthlessLogOdds(DepthlessFrame(), Cells(2), unknown, corners, GrowthOptions())(kHeight / 2,
+                                                                                           kWidth / 2);
+  };
+  EXPECT_FLOAT_EQ(log_odds(CornersOff(0)), log_odds({}));
+  EXPECT_GT(log_odds(CornersOff(9)), log_odds({}));
+}
+
 TEST(DepthlessLogOdds, MovingCornersSpeakEverywhere) {
   for (const float gray : {kGray, kGray + 50}) EXPECT_GT(LogOdds(gray, CornersOff(9)), LogOdds(gray, {}));
 }
