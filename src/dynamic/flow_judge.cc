@@ -12,12 +12,17 @@ FrameMotion FlowJudge::Judge(const WorkingFrame& frame, uint64_t seed, SceneHist
                    Inverse(motion.camera.color_current_from_previous));
   history->AlignKeyframes(frame, motion.camera.is_depth_misled);
 
-  std::optional<Flow> slow;
-  const ReferenceView* older = history->KeyframeOfAge(options_.slow_flow.age_frames);
-  if (options_.slow_flow.use_slow_flow && motion.IsTrusted() && older != nullptr)
+  const SlowFlowOptions& options = options_.slow_flow;
+  const ReferenceView* older = history->KeyframeOfAge(options.age_frames);
+  std::optional<Flow> slow, slowest;
+  if (options.use_slow_flow && motion.IsTrusted() && older != nullptr) {
     slow = FlowSince(*older, frame, seed, history, &motion.camera);
+    const ReferenceView* oldest = history->KeyframeOfAge(options.long_age_frames);
+    if (oldest != nullptr && oldest != older) slowest = LongFlowSince(*oldest, frame, seed, *history);
+  }
   motion.flows.push_back(MakeFlow(motion.camera.corners, options_.corner_gate));
   if (slow) motion.flows.push_back(std::move(*slow));
+  if (slowest) motion.flows.push_back(std::move(*slowest));
   return motion;
 }
 
@@ -32,6 +37,14 @@ std::optional<Flow> FlowJudge::FlowSince(const ReferenceView& older, const Worki
   Flow flow = MakeFlow(std::move(slow.corners), options_.slow_flow.gate);
   flow.far_alone_rests = slow.far.has_value();
   if (!flow.far_alone_rests && flow.gate.sharpness < options_.slow_flow.min_sharpness) return {};
+  return flow;
+}
+
+std::optional<Flow> FlowJudge::LongFlowSince(const ReferenceView& oldest, const WorkingFrame& frame,
+                                             uint64_t seed, const SceneHistory& history) const {
+  OlderCorners slow = estimator_.FollowFrom(oldest, *history.Back(1), frame, seed);
+  Flow flow = MakeFlow(std::move(slow.corners), options_.slow_flow.gate);
+  if (slow.far || flow.gate.sharpness < options_.slow_flow.min_sharpness) return {};
   return flow;
 }
 

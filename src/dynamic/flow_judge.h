@@ -13,13 +13,13 @@ namespace orbslam {
 /// How the camera moved, and which corners did otherwise.
 struct FrameMotion {
   CameraMotion camera;
-  std::vector<Flow> flows;  // from the last frame; from an older one, unless too blurred
+  std::vector<Flow> flows;  // from the last frame; from older ones, unless too blurred
 
   bool IsTrusted() const { return camera.failure.empty(); }
   bool IsSharp() const { return IsTrusted() && flows.front().gate.IsSharp(); }
 };
 
-/// Follows corners from the last frame and from a keyframe, and brings the history's poses up to date by
+/// Follows corners from the last frame and from keyframes, and brings the history's poses up to date by
 /// them.
 class FlowJudge {
  public:
@@ -34,6 +34,10 @@ class FlowJudge {
   /// Puts the motion since the last frame right if it had followed something near.
   std::optional<Flow> FlowSince(const ReferenceView& older, const WorkingFrame& frame, uint64_t seed,
                                 SceneHistory* history, CameraMotion* motion);
+
+  /// Corrects nothing: on the way from so old a keyframe, its own pose is the best guess there is.
+  std::optional<Flow> LongFlowSince(const ReferenceView& oldest, const WorkingFrame& frame, uint64_t seed,
+                                    const SceneHistory& history) const;
 
   DynamicDetectorOptions options_;
   CameraMotionEstimator estimator_;

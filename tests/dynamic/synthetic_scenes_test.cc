@@ -67,6 +67,17 @@ TEST(WhoSits, IsSeenByHisSwayOverHalfASecond) {
   EXPECT_LT(masked[0].wrongly, 0.05);  // a rim of some pixels about them is a thirtieth
 }
 
+/// A third of them sways by less in half a second than flow can tell.
+TEST(WhoSits, IsSeenByHisSwayOverASecond) {
+  const SyntheticSequence sequence({.seed = 2, .motion = Motion::kXyz, .script = ScriptKind::kSitting});
+  DynamicDetectorOptions over_half_a_second;
+  over_half_a_second.slow_flow.long_age_frames = over_half_a_second.slow_flow.age_frames;
+  const auto masked = Watch(sequence, 0, 32, 48, {DynamicDetectorOptions(), over_half_a_second});
+  EXPECT_GT(masked[0].recall, 0.9);
+  EXPECT_GT(masked[0].recall, masked[1].recall + 0.15);
+  EXPECT_LT(masked[0].wrongly, 0.05);
+}
+
 /// Their hands move, and their backs rest for a while.
 TEST(WhoSits, MovesAsAWhole) {
   const SyntheticSequence sequence({.seed = 2, .motion = Motion::kStatic, .script = ScriptKind::kSitting});
@@ -74,7 +85,7 @@ TEST(WhoSits, MovesAsAWhole) {
   part_by_part.whole_things.use_whole_things = false;
   const auto masked = Watch(sequence, 0, 12, 36, {DynamicDetectorOptions(), part_by_part});
   EXPECT_GT(masked[0].recall, 0.9);
-  EXPECT_GT(masked[0].recall, masked[1].recall + 0.3);
+  EXPECT_GT(masked[0].recall, masked[1].recall + 0.2);
   EXPECT_LT(masked[0].wrongly, 0.04);
 }
 

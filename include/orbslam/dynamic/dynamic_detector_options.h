@@ -131,6 +131,7 @@ struct CornerGateOptions {
 struct SlowFlowOptions {
   bool use_slow_flow = true;
   int age_frames = 15;  // of the keyframe, half a second: who sits sways by 1 cm in it, 2 grey px at 1.5 m
+  int long_age_frames = 30;  // of another one, for who begins more slowly still
   // Four sigma, for half a second averages blur; but in it a rolling shutter bends the picture further.
   CornerGateOptions gate{.multiple = 5.f, .max_sharp_px = 0.65f};
   float min_sharpness = 0.5f;  // below 1 it only holds what moves already, for who sways may seem to rest
