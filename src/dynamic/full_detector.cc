@@ -126,6 +126,7 @@ void FullDetector::JudgeThings(const WorkingFrame& frame, std::span<const Refere
                                Judgement* judgement) const {
   const WholeThingOptions& options = options_.whole_things;
   if (!options.use_whole_things || !judgement->motion.IsSharp()) return;
+  if (cv::countNonZero(judgement->moving) < options.min_moving_cells) return;
   const GridCamera& camera = reducer_.grids().cell;
   const cv::Mat1b rooted = RootedCells(camera, frame.depth_m, references, options);
   const cv::Mat1b hanging_on = WholeThings(camera, frame, judgement->moving, rooted, options);

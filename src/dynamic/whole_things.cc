@@ -90,7 +90,6 @@ cv::Mat1b RootedCells(const GridCamera& camera, const cv::Mat1f& depth_m,
 cv::Mat1b WholeThings(const GridCamera& camera, const WorkingFrame& frame, const cv::Mat1b& moving,
                       const cv::Mat1b& rooted, const WholeThingOptions& options) {
   cv::Mat1b hanging_on(frame.depth_m.size(), uint8_t{0});
-  if (cv::countNonZero(moving) < options.min_moving_cells) return hanging_on;
   cv::Mat1b included;
   cv::bitwise_not(rooted, included);
   included.setTo(255, moving);
