@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "cells.h"
@@ -93,7 +95,7 @@ cv::Mat1b WholeThings(const GridCamera& camera, const WorkingFrame& frame, const
   cv::Mat1b included;
   cv::bitwise_not(rooted, included);
   included.setTo(255, moving);
-  for (const Cluster& cluster : WithoutFurniture(camera, frame, included, options)) {
+  for (const Cluster& cluster : WithoutFurniture(camera, frame, std::move(included), options)) {
     const Thing thing(camera, frame.depth_m, moving, cluster);
     if (thing.Moves(options)) thing.MarkWithinReach(options.reach_m, &hanging_on);
   }

@@ -187,9 +187,8 @@ Rows MaskRows(int* margin_px) {
            "px, by which ready-made masks are widened: corners on a silhouette move along"}};
 }
 
-/// Each source of evidence can be left out, to see what it is worth.
-Rows EvidenceRows(DynamicDetectorOptions* options) {
-  FusionOptions* fusion = &options->fusion;
+/// Each source of evidence can be left out, to see what it is worth: what speaks for or against a cluster,
+Rows EvidenceRows(FusionOptions* fusion) {
   return {
       {"DynamicDetector.useFreeSpace",
        &fusion->use_free_space,
@@ -202,6 +201,23 @@ Rows EvidenceRows(DynamicDetectorOptions* options) {
        kOptional,
        {},
        "corners do not move as the camera says"},
+      {"DynamicDetector.useAttachment",
+       &fusion->use_attachment,
+       kOptional,
+       {},
+       "continues into what is static"},
+      {"DynamicDetector.useThickness", &fusion->use_thickness, kOptional, {}, "is thin, as edges are"},
+      {"DynamicDetector.useHistogram",
+       &fusion->use_histogram,
+       kOptional,
+       {},
+       "nine frames show it displaced"},
+  };
+}
+
+/// and what decides which cells are asked, or belong to it.
+Rows SurfaceRows(DynamicDetectorOptions* options) {
+  return {
       {"DynamicDetector.useSliding",
        &options->sliding.use_sliding,
        kOptional,
@@ -227,22 +243,11 @@ Rows EvidenceRows(DynamicDetectorOptions* options) {
        kOptional,
        {},
        "hangs together with what moves"},
-      {"DynamicDetector.useAttachment",
-       &fusion->use_attachment,
-       kOptional,
-       {},
-       "continues into what is static"},
       {"DynamicDetector.useHindsight",
        &options->hindsight.use_hindsight,
        kOptional,
        {},
        "later frames see through where it stood"},
-      {"DynamicDetector.useThickness", &fusion->use_thickness, kOptional, {}, "is thin, as edges are"},
-      {"DynamicDetector.useHistogram",
-       &fusion->use_histogram,
-       kOptional,
-       {},
-       "nine frames show it displaced"},
       {"DynamicDetector.useVelocity",
        &options->histogram.use_velocity,
        kOptional,
@@ -281,7 +286,8 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(LoopRows(&settings->closes_loops, &settings->loops));
   DynamicDetectorOptions& detector = settings->detector;
   add(DetectorRows(&settings->detects_motion, &detector));
-  add(EvidenceRows(&detector));
+  add(EvidenceRows(&detector.fusion));
+  add(SurfaceRows(&detector));
   add(GrowthRows(&detector.growth));
   add(MaskRows(&settings->user_mask_margin_px));
   return all;

@@ -47,6 +47,21 @@ TEST(WholeThings, WhatIsJoinedToAMovingPartMovesAndTheFloorDoesNot) {
   EXPECT_EQ(cv::countNonZero(found & scene.moving), 0);
 }
 
+/// The trunk leans against a wall: one piece with it, once the floor is gone.
+TEST(WholeThings, OnePlaneAfterTheOtherIsTakenAway) {
+  const auto wall = [](float y) { return 1.2f * std::sqrt(2.f) / (1 - y); };
+  const WorkingFrame frame = See([&](float x, float y) {
+    const float front = PostOnFloor(x, y, 0.15f);
+    return front > 0 ? std::min(front, wall(y)) : wall(y);
+  });
+  const PostThatMoves alone(20);
+  const cv::Mat1b found = WholeThings(kCellCamera, frame, alone.moving, Nothing(), {});
+  EXPECT_GT(cv::countNonZero(found & alone.post), 300);
+  cv::Mat1b about_post;
+  cv::dilate(alone.post, about_post, cv::Mat::ones(13, 13, CV_8U));
+  EXPECT_EQ(cv::countNonZero(found & ~about_post), 0);
+}
+
 TEST(WholeThings, ALittleThatMovesTellsNothingOfTheRest) {
   const auto num_found = [](const PostThatMoves& scene, const WholeThingOptions& options) {
     return cv::countNonZero(WholeThings(kCellCamera, scene.frame, scene.moving, Nothing(), options));
