@@ -35,18 +35,19 @@ float ExposureRatio(const GridCamera& camera, const WorkingFrame& current, const
 }
 
 void Splat(const GridCamera& camera, const WorkingFrame& current, const ReferenceView& reference,
-           Canvas* canvas) {
+           const cv::Mat1b& wanted, Canvas* canvas) {
   const Rigid3d current_from_reference = Inverse(reference.reference_from_current);
   const float exposure = ExposureRatio(camera, current, reference);
   ProjectedRow row(camera.width);
   const auto nearest_m = Cells(canvas->depth_m), nearest_gray = Cells(canvas->gray);
+  const auto is_wanted = Cells(wanted);
   for (int v = 0; v < camera.height; ++v) {
     ProjectRow(camera, current_from_reference, v, reference.filled_depth_m[v], &row);
     const uint8_t* moving = reference.moving[v];
     const float* gray = reference.frame->pyramid[1][v];
     for (int u = 0; u < camera.width; ++u) {
       const int index = row.index[u];
-      if (index < 0 || moving[u] != 0) continue;
+      if (index < 0 || is_wanted[index] == 0 || moving[u] != 0) continue;
       if (row.depth_m[u] >= nearest_m[index]) continue;
       nearest_m[index] = row.depth_m[u];
       nearest_gray[index] = gray[u] * exposure;
@@ -59,10 +60,13 @@ void Splat(const GridCamera& camera, const WorkingFrame& current, const Referenc
 BackgroundView RenderBackground(const GridCamera& camera, const WorkingFrame& current,
                                 std::span<const ReferenceView* const> references) {
   Canvas canvas{cv::Mat1f(camera.height, camera.width, kFar), cv::Mat1f(camera.height, camera.width, 0.f)};
-  for (const ReferenceView* reference : references) Splat(camera, current, *reference, &canvas);
+  const cv::Mat ones = cv::Mat::ones(3, 3, CV_8U);
+  cv::Mat1b wanted;
+  cv::compare(current.depth_m, 0, wanted, cv::CMP_EQ);
+  cv::dilate(wanted, wanted, ones);
+  for (const ReferenceView* reference : references) Splat(camera, current, *reference, wanted, &canvas);
 
   BackgroundView view;
-  const cv::Mat ones = cv::Mat::ones(3, 3, CV_8U);
   cv::Mat1b empty;
   cv::compare(canvas.depth_m, kFar, empty, cv::CMP_GE);
   cv::erode(canvas.depth_m, view.depth_m, ones);  // the nearest of the 3 x 3: closes holes

@@ -8,9 +8,9 @@
 
 namespace orbslam {
 
-/// What the references let expect of the static scene in the present view.
+/// What the references let expect of the static scene where the present view has no depth.
 struct BackgroundView {
-  cv::Mat1f depth_m;             // cells; 0: no reference saw anything there
+  cv::Mat1f depth_m;             // cells; 0: no reference saw anything there, or it has
   cv::Mat1f darkest, brightest;  // grey levels of it, over the 3 x 3 cells around
 };
 

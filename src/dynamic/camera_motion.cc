@@ -96,18 +96,20 @@ PoseFromCorners CameraMotionEstimator::PoseSince(const ReferenceView& older,
   without_draws.num_draws = 0;
   Rng rng(seed, 1, 0xE60);
   const PoseFromCorners refined = EstimatePose(grids_.gray, matches, candidates, without_draws, &rng);
-  const PoseFromCorners drawn = EstimatePose(grids_.gray, matches, candidates, options_.pose, &rng);
+  PoseFromCornersOptions all_draws = options_.pose;
+  all_draws.max_missed = 0;  // where two things are about as large, the better of them is found late
+  const PoseFromCorners drawn = EstimatePose(grids_.gray, matches, candidates, all_draws, &rng);
   const auto from_depth = [&](const PoseFromCorners& pose) {
     return Distance(pose.current_from_previous, aligned);
   };
-  return drawn.ok && from_depth(drawn) < from_depth(refined) ? drawn : refined;
+  return drawn.ok && (!refined.ok || from_depth(drawn) < from_depth(refined)) ? drawn : refined;
 }
 
 OlderCorners CameraMotionEstimator::FollowFrom(const ReferenceView& older, const ReferenceView& last,
                                                const WorkingFrame& current, uint64_t seed) const {
   const Rigid3d carried = Inverse(older.color_reference_from_current);
   std::vector<TrackedCorner> corners =
-      FollowCorners(grids_, older, current, carried, Baseline::kLong, options_);
+      FollowCorners(grids_, older, current, carried, Baseline::kLong, options_.flow);
   const cv::Rect inside({0, 0}, last.moving.size());
   for (TrackedCorner& corner : corners)
     if (const cv::Point cell = CellOf(corner); inside.contains(cell) && last.moving(cell) != 0)
@@ -145,7 +147,7 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   const double interval_s = current.timestamp_s - previous.frame->timestamp_s;
   const Rigid3d predicted = Predict(interval_s);
   CameraMotion motion;
-  motion.corners = FollowCorners(grids_, previous, current, predicted, Baseline::kShort, options_);
+  motion.corners = FollowCorners(grids_, previous, current, predicted, Baseline::kShort, options_.flow);
 
   const PoseFromCorners from_corners = PoseOf(motion.corners, predicted, seed);
   motion.num_inliers = from_corners.num_inliers;

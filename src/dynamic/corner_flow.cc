@@ -26,12 +26,12 @@ bool Sample(const cv::Mat1f& image, float x, float y, float* out) {
   const int x0 = cvFloor(x), y0 = cvFloor(y);
   if (x0 < 0 || y0 < 0 || x0 + w + 1 > image.cols || y0 + h + 1 > image.rows) return false;
   const float ax = x - static_cast<float>(x0), ay = y - static_cast<float>(y0);
-  const float w00 = (1 - ax) * (1 - ay), w01 = ax * (1 - ay), w10 = (1 - ax) * ay, w11 = ax * ay;
-  for (int j = 0; j < h; ++j) {
-    const float *top = image[y0 + j] + x0, *bottom = image[std::min(y0 + j + 1, image.rows - 1)] + x0;
-    for (int i = 0; i < w; ++i)
-      out[j * w + i] = w00 * top[i] + w01 * top[i + 1] + w10 * bottom[i] + w11 * bottom[i + 1];
+  float between[(h + 1) * w];  // columns
+  for (int j = 0; j <= h; ++j) {
+    const float* row = image[std::min(y0 + j, image.rows - 1)] + x0;
+    for (int i = 0; i < w; ++i) between[j * w + i] = row[i] + ax * (row[i + 1] - row[i]);
   }
+  for (int k = 0; k < h * w; ++k) out[k] = between[k] + ay * (between[k + w] - between[k]);
   return true;
 }
 
@@ -101,21 +101,26 @@ bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, const std::optional<c
 }
 
 /// Gauss-Newton on the position of a patch in an image; false: left the image.
-bool Refine(const Patch& patch, const cv::Mat1f& image, const FlowOptions& options, cv::Point2f* position,
-            float* difference_grey) {
+bool Refine(const Patch& patch, const cv::Mat1f& image, int max_iterations, float min_step_px,
+            cv::Point2f* position) {
   float now[kPixels], error[kPixels];
-  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
     for (int k = 0; k < kPixels; ++k) error[k] = patch.value[k] - now[k];
     const float bx = Dot(error, patch.slope_x), by = Dot(error, patch.slope_y);
     const float dx = patch.inverse_xx * bx + patch.inverse_xy * by;
     const float dy = patch.inverse_xy * bx + patch.inverse_yy * by;
     position->x += dx, position->y += dy;
-    if (dx * dx + dy * dy < options.min_step_px * options.min_step_px) break;
+    if (dx * dx + dy * dy < min_step_px * min_step_px) break;
   }
-  if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
-  *difference_grey = SumOverPatch([&](int k) { return std::abs(patch.value[k] - now[k]); }) / kPixels;
   return true;
+}
+
+/// Mean absolute difference of a patch and the image there; empty: outside.
+std::optional<float> DifferenceGrey(const Patch& patch, const cv::Mat1f& image, cv::Point2f position) {
+  float now[kPixels];
+  if (!Sample<kSize, kSize>(image, position.x - kHalf, position.y - kHalf, now)) return {};
+  return SumOverPatch([&](int k) { return std::abs(patch.value[k] - now[k]); }) / kPixels;
 }
 
 FlowResult TrackPatch(const std::vector<cv::Mat1f>& first, const std::vector<cv::Mat1f>& second,
@@ -130,13 +135,15 @@ FlowResult TrackPatch(const std::vector<cv::Mat1f>& first, const std::vector<cv:
     cv::Point2f there = here + flow * scale;
     // Coarse levels only lead the way: there it need not be turned.
     const auto axes = level == 0 ? query.first_from_second : std::nullopt;
+    const float min_step_px = level == 0 ? options.min_step_px : options.min_coarse_step_px;
     const bool ok = MakePatch(first[level], here, axes, options.min_texture, &patch) &&
-                    Refine(patch, second[level], options, &there, &result.difference_grey);
+                    Refine(patch, second[level], options.max_iterations, min_step_px, &there);
     if (ok) flow = (there - here) / scale;
     if (!ok && level == 0) return result;  // coarser levels see less of the rim; the finest must succeed
   }
   result.position = query.position + flow;
-  result.ok = result.difference_grey < options.max_difference_grey;
+  const std::optional<float> difference_grey = DifferenceGrey(patch, second.front(), result.position);
+  result.ok = difference_grey && *difference_grey < options.max_difference_grey;
   return result;
 }
 
@@ -147,16 +154,9 @@ ORBSLAM_WIDE_VECTORS FlowResult TrackPatchWide(const std::vector<cv::Mat1f>& fir
   return TrackPatch(first, second, query, options);
 }
 
-bool IsAllowed(const cv::Mat1b& allowed, const cv::Mat1b& gray, const cv::KeyPoint& corner) {
-  if (allowed.empty()) return true;
-  const int step = gray.cols / allowed.cols;
-  return allowed(static_cast<int>(corner.pt.y) / step, static_cast<int>(corner.pt.x) / step) != 0;
-}
-
 }  // namespace
 
-std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& allowed,
-                                       const CornerOptions& options) {
+std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const CornerOptions& options) {
   std::vector<cv::KeyPoint> corners;
   cv::FAST(gray, corners, options.fast_threshold, true);
   std::vector<std::vector<const cv::KeyPoint*>> cells(options.columns * options.rows);
@@ -164,7 +164,6 @@ std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& a
   for (const cv::KeyPoint& corner : corners) {
     const int x = static_cast<int>(corner.pt.x), y = static_cast<int>(corner.pt.y);
     if (x < margin || y < margin || x >= gray.cols - margin || y >= gray.rows - margin) continue;
-    if (!IsAllowed(allowed, gray, corner)) continue;
     cells[y * options.rows / gray.rows * options.columns + x * options.columns / gray.cols].push_back(
         &corner);
   }

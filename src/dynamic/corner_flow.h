@@ -10,14 +10,11 @@
 
 namespace orbslam {
 
-/// Corners (FAST-9, Rosten and Drummond 2006) of a grey image, spread over it. allowed: of the same size or
-/// half of it, 0: no corner here; empty: everywhere.
-std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const cv::Mat1b& allowed,
-                                       const CornerOptions& options);
+/// Corners (FAST-9, Rosten and Drummond 2006) of a grey image, spread over it.
+std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const CornerOptions& options);
 
 struct FlowResult {
   cv::Point2f position;
-  float difference_grey = 0;  // mean absolute, of the patches
   bool ok = false;
 };
 

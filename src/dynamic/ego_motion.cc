@@ -97,6 +97,21 @@ float Cost(const GridCamera& camera, const std::vector<CornerMatch>& matches, co
   return sum;
 }
 
+int NumInliers(const GridCamera& camera, const std::vector<CornerMatch>& matches, const Rigid3d& pose,
+               float inlier_px) {
+  const Motion motion = ToMotion(pose);
+  return static_cast<int>(std::ranges::count_if(matches, [&](const CornerMatch& match) {
+    return SquaredError(camera, motion, match) < inlier_px * inlier_px;
+  }));
+}
+
+/// After which three inliers were drawn together at least once, but for that chance (Fischler and Bolles,
+/// CACM 1981).
+double NumDraws(double inlier_share, double max_missed) {
+  const double all_inliers = std::clamp(inlier_share * inlier_share * inlier_share, 1e-9, 1 - 1e-9);
+  return std::log(max_missed) / std::log(1 - all_inliers);
+}
+
 Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>& matches,
                        const std::vector<Rigid3d>& candidates, const PoseFromCornersOptions& options,
                        Rng* rng) {
@@ -104,18 +119,26 @@ Rigid3d BestHypothesis(const GridCamera& camera, const std::vector<CornerMatch>&
   float best_cost = Cost(camera, matches, best, options.inlier_px);
   const auto consider = [&](const Rigid3d& pose) {
     const float cost = Cost(camera, matches, pose, options.inlier_px, best_cost);
-    if (cost < best_cost) best = pose, best_cost = cost;
+    const bool is_better = cost < best_cost;
+    if (is_better) best = pose, best_cost = cost;
+    return is_better;
+  };
+  const auto num_draws = [&](const Rigid3d& pose) {
+    const double share =
+        NumInliers(camera, matches, pose, options.inlier_px) / static_cast<double>(matches.size());
+    return NumDraws(share, options.max_missed);
   };
   for (size_t i = 1; i < candidates.size(); ++i) consider(candidates[i]);
   const Rigid3d start = best;
   const auto count = static_cast<uint32_t>(matches.size());
   std::vector<int> triple(3);
-  for (int draw = 0; draw < options.num_draws; ++draw) {
+  double enough = num_draws(best);
+  for (int draw = 0; draw < options.num_draws && draw < enough; ++draw) {
     for (int& index : triple) index = static_cast<int>(rng->Below(count));
     if (triple[0] == triple[1] || triple[0] == triple[2] || triple[1] == triple[2]) continue;
     Rigid3d pose = start;
     for (int i = 0; i < 3; ++i) pose = Improve(camera, matches, triple, pose, 0);
-    consider(pose);
+    if (consider(pose)) enough = num_draws(best);
   }
   return best;
 }
@@ -141,7 +164,6 @@ PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerM
                              Rng* rng, const PosePrior* prior) {
   PoseFromCorners result;
   result.current_from_previous = candidates.front();
-  result.is_inlier.assign(matches.size(), 0);
   if (static_cast<int>(matches.size()) < options.min_inliers) return result;
   Rigid3d pose = BestHypothesis(camera, matches, candidates, options, rng);
   std::vector<int> all(matches.size());
@@ -154,12 +176,7 @@ PoseFromCorners EstimatePose(const GridCamera& camera, const std::vector<CornerM
     pose = Improve(camera, matches, all, pose, 1.5f * options.inlier_px, scaled ? &*scaled : nullptr,
                    &information);
   result.information = information.cast<double>() / (options.sigma_px * options.sigma_px);
-  const Motion motion = ToMotion(pose);
-  for (size_t i = 0; i < matches.size(); ++i)
-    if (SquaredError(camera, motion, matches[i]) < options.inlier_px * options.inlier_px) {
-      result.is_inlier[i] = 1;
-      ++result.num_inliers;
-    }
+  result.num_inliers = NumInliers(camera, matches, pose, options.inlier_px);
   result.ok = result.num_inliers >= options.min_inliers;
   result.current_from_previous = pose;
   return result;

@@ -22,7 +22,6 @@ struct PoseFromCorners {
   /// Inverse covariance of small motions in the current frame: rotation (rad) before translation (m).
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   int num_inliers = 0;
-  std::vector<uint8_t> is_inlier;  // of each match
   bool ok = false;
 };
 

@@ -20,7 +20,7 @@ constexpr float kMinLogOdds = -2.f,
 
 FullDetector::FullDetector(const PinholeCamera& camera, const DynamicDetectorOptions& options)
     : options_(options),
-      reducer_(camera),
+      reducer_(camera, options.corners),
       history_(reducer_.grids().cell, options.references, camera.readout_s),
       flow_judge_(reducer_.grids(), options),
       cluster_judge_(options.fusion, options.histogram) {}

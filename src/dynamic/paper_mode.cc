@@ -12,7 +12,7 @@ ReferenceOptions WithoutKeyframes(ReferenceOptions options) {
 }  // namespace
 
 PaperMode::PaperMode(const PinholeCamera& camera, const DynamicDetectorOptions& options)
-    : reducer_(camera),
+    : reducer_(camera, options.corners),
       history_(reducer_.grids().cell, WithoutKeyframes(options.references), camera.readout_s),
       motion_estimator_(reducer_.grids(), options.camera_motion),
       detector_(PaperDetectorOptions{}) {

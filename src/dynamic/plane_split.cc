@@ -74,19 +74,25 @@ class ClusterPlanes {
 
 }  // namespace
 
+std::vector<Cluster> TakePlanes(const GridCamera& camera, const WorkingFrame& frame,
+                                std::span<const Cluster> clusters, float min_area_m2, cv::Mat1b* included) {
+  const ClusterPlanes planes(camera, frame);
+  std::vector<Cluster> flat;
+  for (const Cluster& cluster : clusters) {
+    std::vector<int> cells = planes.Largest(cluster.cells, min_area_m2);
+    if (cells.empty()) continue;
+    for (const int cell : cells) (*included)(cell) = 0;
+    flat.push_back({std::move(cells), true});
+  }
+  return flat;
+}
+
 Segmentation SegmentSurfaces(const GridCamera& camera, const WorkingFrame& frame, const cv::Mat1b& included,
                              const SegmentationOptions& options) {
   Segmentation joined = SegmentCells(frame.depth_m, included, options.min_cells);
   if (!options.use_planes) return joined;
-  const ClusterPlanes planes(camera, frame);
   cv::Mat1b rest = included.clone();
-  std::vector<Cluster> flat;
-  for (const Cluster& cluster : joined.clusters) {
-    std::vector<int> cells = planes.Largest(cluster.cells, options.min_plane_m2);
-    if (cells.empty()) continue;
-    for (const int cell : cells) rest(cell) = 0;
-    flat.push_back({std::move(cells), true});
-  }
+  std::vector<Cluster> flat = TakePlanes(camera, frame, joined.clusters, options.min_plane_m2, &rest);
   if (flat.empty()) return joined;
   Segmentation result = SegmentCells(frame.depth_m, rest, options.min_cells);
   for (Cluster& cluster : flat) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "orbslam/dynamic/dynamic_detector_options.h"
 #include "segmenter.h"
 
@@ -11,5 +14,10 @@ namespace orbslam {
 /// longer joined: what is known of a walker says nothing of the floor.
 Segmentation SegmentSurfaces(const GridCamera& camera, const WorkingFrame& frame, const cv::Mat1b& included,
                              const SegmentationOptions& options);
+
+/// Of each cluster the cells on its largest plane, if that is at least min_area_m2; they are taken out of the
+/// included cells.
+std::vector<Cluster> TakePlanes(const GridCamera& camera, const WorkingFrame& frame,
+                                std::span<const Cluster> clusters, float min_area_m2, cv::Mat1b* included);
 
 }  // namespace orbslam

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <vector>
 
+#include "cells.h"
+
 namespace orbslam {
 namespace {
+
+constexpr uint8_t kUnreached = 0, kResting = 1, kSliding = 2;
 
 bool IsNeighbor(const TrackedCorner& a, const TrackedCorner& b, const SlidingOptions& options) {
   const cv::Point2f offset = a.current - b.current;
@@ -34,32 +38,35 @@ bool MovesWithNeighbors(const TrackedCorner& corner, const Flow& flow, const Sli
 }  // namespace
 
 cv::Mat1b SlidingCells(const cv::Mat1f& depth_m, const Flow& flow, const SlidingOptions& options) {
-  cv::Mat1b sliding(depth_m.size(), uint8_t{0}), reached(depth_m.size(), uint8_t{0});
-  const cv::Rect inside({0, 0}, depth_m.size());
-  std::vector<cv::Point> front, next;
+  const cv::Rect inside({1, 1}, depth_m.size());
+  cv::Mat1f framed_m;  // by cells without depth, at which every step ends
+  cv::copyMakeBorder(depth_m, framed_m, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::Mat1b state(framed_m.size(), kUnreached);
+  std::vector<int> front, next;
   for (const TrackedCorner& corner : flow.corners) {
-    const cv::Point cell = CellOf(corner);
-    if (!(corner.depth_m > 0) || !inside.contains(cell) || reached(cell) != 0) continue;
-    reached(cell) = 1;
-    sliding(cell) = MovesWithNeighbors(corner, flow, options) ? 255 : 0;
-    front.push_back(cell);
+    const cv::Point cell = CellOf(corner) + inside.tl();
+    if (!(corner.depth_m > 0) || !inside.contains(cell) || state(cell) != kUnreached) continue;
+    state(cell) = MovesWithNeighbors(corner, flow, options) ? kSliding : kResting;
+    front.push_back(cell.y * state.cols + cell.x);
   }
   // From all corners at once: each cell follows the nearest one of its own surface.
+  const auto z_m = Cells(framed_m);
+  const auto states = Cells(state);
   for (int step = 0; step < options.max_steps; ++step) {
     next.clear();
-    for (const cv::Point& cell : front)
-      for (const cv::Point& offset : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
-        const cv::Point neighbor = cell + offset;
-        if (!inside.contains(neighbor) || reached(neighbor) != 0) continue;
-        const float here = depth_m(cell), there = depth_m(neighbor);
-        if (!(std::min(here, there) > 0) || std::abs(here - there) > MaxSurfaceStepM(std::min(here, there)))
+    for (const int cell : front)
+      for (const int neighbor : {cell + 1, cell - 1, cell + state.cols, cell - state.cols}) {
+        const float nearer_m = std::min(z_m[cell], z_m[neighbor]);
+        if (states[neighbor] != kUnreached || !(nearer_m > 0) ||
+            std::abs(z_m[cell] - z_m[neighbor]) > MaxSurfaceStepM(nearer_m))
           continue;
-        reached(neighbor) = 1;
-        sliding(neighbor) = sliding(cell);
+        states[neighbor] = states[cell];
         next.push_back(neighbor);
       }
     std::swap(front, next);
   }
+  cv::Mat1b sliding;
+  cv::compare(state(inside), kSliding, sliding, cv::CMP_EQ);
   return sliding;
 }
 

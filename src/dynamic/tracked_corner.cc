@@ -56,11 +56,11 @@ cv::Matx22f PreviousFromCurrent(const GridCamera& camera, const Rigid3d& motion,
 
 std::vector<TrackedCorner> FollowCorners(const WorkingGrids& grids, const ReferenceView& earlier,
                                          const WorkingFrame& current, const Rigid3d& motion,
-                                         Baseline baseline, const CameraMotionOptions& options) {
+                                         Baseline baseline, const FlowOptions& options) {
   const WorkingFrame& before = *earlier.frame;
   std::vector<TrackedCorner> corners;
   std::vector<FlowQuery> queries;
-  for (const cv::Point2f& position : SpreadCorners(before.gray, {}, options.corners)) {
+  for (const cv::Point2f& position : before.corners) {
     const int u = static_cast<int>(position.x) / 2, v = static_cast<int>(position.y) / 2;
     TrackedCorner corner;
     corner.previous = position;
@@ -72,7 +72,7 @@ std::vector<TrackedCorner> FollowCorners(const WorkingGrids& grids, const Refere
       query.first_from_second = PreviousFromCurrent(grids.gray, motion, position, query.predicted, depth_m);
     corners.push_back(corner), queries.push_back(query);
   }
-  const std::vector<FlowResult> flow = TrackPatches(before.pyramid, current.pyramid, queries, options.flow);
+  const std::vector<FlowResult> flow = TrackPatches(before.pyramid, current.pyramid, queries, options);
   std::vector<TrackedCorner> tracked;
   for (size_t i = 0; i < flow.size(); ++i) {
     if (!flow[i].ok) continue;

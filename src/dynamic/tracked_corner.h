@@ -40,7 +40,7 @@ enum class Baseline { kShort, kLong };
 /// far as is known. Without residuals yet.
 std::vector<TrackedCorner> FollowCorners(const WorkingGrids& grids, const ReferenceView& earlier,
                                          const WorkingFrame& current, const Rigid3d& motion,
-                                         Baseline baseline, const CameraMotionOptions& options);
+                                         Baseline baseline, const FlowOptions& options);
 
 /// Fills in excess and residual, given the camera's motion.
 void MeasureExcess(const GridCamera& gray_camera, const Rigid3d& current_from_previous,

@@ -13,22 +13,29 @@
 namespace orbslam {
 namespace {
 
-/// What is left of the included cells when one large plane after the other has been taken off each cluster.
-std::vector<Cluster> WithoutFurniture(const GridCamera& camera, const WorkingFrame& frame, cv::Mat1b included,
+/// Connected surfaces on which enough moves; all others are taken out of the included cells.
+std::vector<Cluster> ThatMove(const WorkingFrame& frame, const cv::Mat1b& moving,
+                              const WholeThingOptions& options, cv::Mat1b* included) {
+  std::vector<Cluster> things = SegmentCells(frame.depth_m, *included, options.min_moving_cells).clusters;
+  included->setTo(0);
+  std::erase_if(things, [&](const Cluster& thing) {
+    return std::ranges::count_if(thing.cells, [&](int cell) { return moving(cell) != 0; }) <
+           options.min_moving_cells;
+  });
+  for (const Cluster& thing : things)
+    for (const int cell : thing.cells) (*included)(cell) = 255;
+  return things;
+}
+
+/// What is left of them when one large plane after the other has been taken off each.
+std::vector<Cluster> WithoutFurniture(const GridCamera& camera, const WorkingFrame& frame,
+                                      const cv::Mat1b& moving, cv::Mat1b included,
                                       const WholeThingOptions& options) {
   constexpr int kMaxRounds = 6;  // floor, three walls, a table and what stands on it
-  SegmentationOptions flat;
-  flat.min_cells = options.min_moving_cells;
-  flat.min_plane_m2 = options.min_plane_m2;
-  std::vector<Cluster> things;
+  std::vector<Cluster> things = ThatMove(frame, moving, options, &included);
   for (int round = 0; round < kMaxRounds; ++round) {
-    things = SegmentSurfaces(camera, frame, included, flat).clusters;
-    const auto first_flat =
-        std::ranges::stable_partition(things, [](const Cluster& c) { return !c.is_flat; });
-    if (first_flat.empty()) break;
-    for (const Cluster& furniture : first_flat)
-      for (const int cell : furniture.cells) included(cell) = 0;
-    things.erase(first_flat.begin(), things.end());
+    if (TakePlanes(camera, frame, things, options.min_plane_m2, &included).empty()) break;
+    things = ThatMove(frame, moving, options, &included);
   }
   return things;
 }
@@ -95,7 +102,7 @@ cv::Mat1b WholeThings(const GridCamera& camera, const WorkingFrame& frame, const
   cv::Mat1b included;
   cv::bitwise_not(rooted, included);
   included.setTo(255, moving);
-  for (const Cluster& cluster : WithoutFurniture(camera, frame, std::move(included), options)) {
+  for (const Cluster& cluster : WithoutFurniture(camera, frame, moving, std::move(included), options)) {
     const Thing thing(camera, frame.depth_m, moving, cluster);
     if (thing.Moves(options)) thing.MarkWithinReach(options.reach_m, &hanging_on);
   }

@@ -6,6 +6,7 @@
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "corner_flow.h"
 #include "normals.h"
 #include "orbslam/util/check.h"
 
@@ -83,8 +84,6 @@ float BlockDepth(const float* corner, size_t stride, int step) {
 
 }  // namespace
 
-float MaxSurfaceStepM(float depth_m) { return 0.02f + 0.012f * depth_m * depth_m; }
-
 WorkingGrids::WorkingGrids(const PinholeCamera& camera)
     : gray_step(std::max(1, static_cast<int>(std::lround(camera.width / 320.0)))),
       cell_step(2 * gray_step),
@@ -93,8 +92,9 @@ WorkingGrids::WorkingGrids(const PinholeCamera& camera)
   gray.width = 2 * cell.width, gray.height = 2 * cell.height;
 }
 
-FrameReducer::FrameReducer(const PinholeCamera& camera)
+FrameReducer::FrameReducer(const PinholeCamera& camera, const CornerOptions& corners)
     : grids_(camera),
+      corners_(corners),
       cell_corner_(grids_.cell.height, grids_.cell.width),
       raw_to_cell_(camera.height, camera.width) {
   const int step = grids_.cell_step;
@@ -149,6 +149,7 @@ WorkingFrame FrameReducer::Reduce(const RgbdImage& image) const {
   frame.pyramid.resize(3);
   frame.gray.convertTo(frame.pyramid[0], CV_32F);
   for (int level = 1; level < 3; ++level) cv::pyrDown(frame.pyramid[level - 1], frame.pyramid[level]);
+  frame.corners = SpreadCorners(frame.gray, corners_);
 
   frame.depth_m = ReduceDepth(image.depth_m);
   frame.num_depth_cells = cv::countNonZero(frame.depth_m);

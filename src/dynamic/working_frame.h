@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "orbslam/camera/pinhole_camera.h"
+#include "orbslam/dynamic/dynamic_detector_options.h"
 #include "orbslam/pipeline/messages.h"
 
 namespace orbslam {
@@ -34,6 +35,7 @@ struct WorkingFrame {
   double timestamp_s = 0;
   cv::Mat1b gray;                          // grey grid
   std::vector<cv::Mat1f> pyramid;          // gray and two halvings of it; grey levels
+  std::vector<cv::Point2f> corners;        // of gray, to be followed into later frames
   cv::Mat1f depth_m;                       // cells; 0: none
   cv::Mat1f normal_x, normal_y, normal_z;  // cells; unit, towards the camera; all 0: none
   int num_depth_cells = 0;
@@ -42,7 +44,7 @@ struct WorkingFrame {
 /// Raw images -> working frames, and cell masks -> raw masks, through look-up tables made once.
 class FrameReducer {
  public:
-  explicit FrameReducer(const PinholeCamera& camera);
+  explicit FrameReducer(const PinholeCamera& camera, const CornerOptions& corners = {});
 
   const WorkingGrids& grids() const { return grids_; }
   WorkingFrame Reduce(const RgbdImage& image) const;
@@ -53,6 +55,7 @@ class FrameReducer {
   cv::Mat1f ReduceDepth(const cv::Mat1f& raw) const;
 
   WorkingGrids grids_;
+  CornerOptions corners_;
   cv::Mat gray_map_, gray_map_fraction_;  // for cv::remap, of the undistorted grey grid into the halved image
   cv::Mat_<cv::Point> cell_corner_;       // raw pixel at a cell's top left; x = -1: outside
   cv::Mat1i raw_to_cell_;                 // cell index of each raw pixel; nearest one where there is none
@@ -60,6 +63,6 @@ class FrameReducer {
 
 /// Largest step in depth, metres, between neighbouring cells of one surface: 3 sigma of the sensor's noise
 /// at both ends, and a surface seen at 75 degrees.
-float MaxSurfaceStepM(float depth_m);
+inline float MaxSurfaceStepM(float depth_m) { return 0.02f + 0.012f * depth_m * depth_m; }
 
 }  // namespace orbslam

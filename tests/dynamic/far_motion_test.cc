@@ -26,8 +26,8 @@ class FarMotionTest : public testing::Test {
     earlier_.envelope = MakeEnvelope(earlier_.frame->depth_m);
     earlier_.moving = cv::Mat1b(earlier_.frame->depth_m.size(), uint8_t{0});
     current_ = Frame(1, Inverse(truth_), now);
-    matches_ = RestingMatches(grids_.gray, FollowCorners(grids_, earlier_, *current_, truth_, Baseline::kLong,
-                                                         CameraMotionOptions()));
+    matches_ = RestingMatches(
+        grids_.gray, FollowCorners(grids_, earlier_, *current_, truth_, Baseline::kLong, FlowOptions()));
   }
 
   /// Beginning with what a camera that went along with the box would have seen.

@@ -38,8 +38,8 @@ class TrackedCornerTest : public testing::Test {
   double MedianResidualPx(const Rigid3d& world_from_current, Baseline baseline) const {
     const ReferenceView view = View({}, {}, world_from_current);
     const Rigid3d motion = Inverse(view.reference_from_current);
-    auto corners = FollowCorners(grids_, view, *Frame(1, world_from_current, {}), motion, baseline,
-                                 CameraMotionOptions());
+    auto corners =
+        FollowCorners(grids_, view, *Frame(1, world_from_current, {}), motion, baseline, FlowOptions());
     MeasureExcess(grids_.gray, motion, &corners);
     return RestingResidualPx(corners, 0.5, 100).value_or(1e9f);
   }
@@ -59,8 +59,7 @@ TEST_F(TrackedCornerTest, PatchesAreFollowedThroughAShift) {
     shifted.push_back(image);
   }
   std::vector<FlowQuery> queries;
-  for (const cv::Point2f& corner : SpreadCorners(frame->gray, {}, {}))
-    queries.push_back({corner, corner, {}});
+  for (const cv::Point2f& corner : frame->corners) queries.push_back({corner, corner, {}});
   ASSERT_GT(queries.size(), 100u);
   int num_right = 0;
   const auto flow = TrackPatches(frame->pyramid, shifted, queries, {});
@@ -72,7 +71,7 @@ TEST_F(TrackedCornerTest, PatchesAreFollowedThroughAShift) {
 TEST_F(TrackedCornerTest, PatchesThatAreToldNotToTurnAreFollowedAlike) {
   const auto before = Frame(0, {}, {}), now = Frame(1, {So3Exp({0, 0.005, 0}), {}}, {});
   std::vector<FlowQuery> plain, told;
-  for (const cv::Point2f& corner : SpreadCorners(before->gray, {}, {})) {
+  for (const cv::Point2f& corner : before->corners) {
     plain.push_back({corner, corner, {}});
     told.push_back({corner, corner, cv::Matx22f::eye()});
   }
@@ -101,7 +100,7 @@ TEST_F(TrackedCornerTest, OverALongBaselinePatchesGrowWithWhatComesNearer) {
 TEST_F(TrackedCornerTest, AtAnEdgeTheDepthLiesBetweenTheTwoSides) {
   const std::vector<RoomBox> boxes{{{0, 0, 1.5}, {0.3, 0.3, 0.05}}};  // its front 1.45 m away, the wall 3.5
   const ReferenceView view = View({}, boxes, {});
-  auto corners = FollowCorners(grids_, view, *view.frame, {}, Baseline::kLong, CameraMotionOptions());
+  auto corners = FollowCorners(grids_, view, *view.frame, {}, Baseline::kLong, FlowOptions());
   int num_on_edge = 0;
   for (const TrackedCorner& corner : corners) {
     const double from_middle =

@@ -20,14 +20,17 @@ struct CornerOptions {
 /// Lucas-Kanade on patches of 12 x 12 grey pixels.
 struct FlowOptions {
   int max_iterations = 8;            // Gauss-Newton steps a level
-  float min_step_px = 0.03f;         // converged: a tenth of the noise of the flow
+  float min_step_px = 0.03f;         // converged: a tenth of the noise of the flow;
+  float min_coarse_step_px = 0.1f;   // on coarser levels, which only lead the way
   float min_texture = 2.5f;          // smaller eigenvalue of the mean structure tensor, (grey levels / px)^2
   float max_difference_grey = 20.f;  // mean absolute difference of the patches in the end
 };
 
 /// The camera's motion from corners.
 struct PoseFromCornersOptions {
-  int num_draws = 80;      // with 60 % outliers, 99 % certain to draw three inliers at least once
+  int num_draws = 80;      // at most: with 60 % outliers, 99 % certain to draw three inliers at least once
+  double max_missed = 0.01;  // they end when, of inliers as many as the best pose has, this is the chance
+                             // that no three were drawn together
   float inlier_px = 0.4f;  // grey px: 3 sigma of the flow where pictures blur. With 1 px, one who walks
                            // slowly passes for the room
   double sigma_px = 0.7;   // grey px, of a corner's place: flow, depth and rolling shutter
@@ -62,7 +65,6 @@ struct FarMotionOptions {
 };
 
 struct CameraMotionOptions {
-  CornerOptions corners;
   FlowOptions flow;
   // Its inlier_px is the largest; mostly it follows the last frame's noise, for in sharp pictures somebody
   // who starts to walk would fit together with the room.
@@ -231,6 +233,7 @@ struct FailOpenOptions {
 
 struct DynamicDetectorOptions {
   DetectorMode mode = DetectorMode::kFull;
+  CornerOptions corners;
   CameraMotionOptions camera_motion;
   ReferenceOptions references;
   FreeSpaceOptions free_space;
