@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "optimization/noise_variance.h"
 #include "optimization/stop_callback.h"
 #include "orbslam/util/check.h"
 
@@ -53,16 +54,19 @@ void BundleSolver::Loss::Evaluate(double chi2, double out[3]) const {
 }
 
 BundleSolver::BundleSolver(const BundleOptions& options, const BundleProblem& problem)
-    : options_(options),
-      input_(problem),
-      points_(problem.points),
-      mono_loss_(options.max_chi2_mono),
-      stereo_loss_(options.max_chi2_stereo),
-      ceres_(UnownedOptions()) {
+    : options_(options), input_(problem), points_(problem.points), ceres_(UnownedOptions()) {
   poses_.reserve(problem.poses.size());
   for (const BundlePose& pose : problem.poses) poses_.emplace_back(pose.camera_from_world);
+  const double scale = GateScale(Chi2());
+  mono_loss_.emplace(scale * options.max_chi2_mono), stereo_loss_.emplace(scale * options.max_chi2_stereo);
   AddParameters();
   AddResiduals();
+}
+
+double BundleSolver::GateScale(const std::vector<double>& chi2) const {
+  NoiseVariance noise;
+  for (size_t i = 0; i < chi2.size(); ++i) noise.Add(chi2[i], IsMono(input_.observations[i]) ? 2 : 3);
+  return std::min(1.0, options_.gate_margin * noise.Estimate());
 }
 
 void BundleSolver::AddParameters() {
@@ -90,7 +94,7 @@ void BundleSolver::AddResiduals() {
   for (const BundleObservation& o : input_.observations) {
     PoseBlock& pose = poses_[o.pose];
     costs_.emplace_back(input_.intrinsics, o);
-    ceres_.AddResidualBlock(&costs_.back(), IsMono(o) ? &mono_loss_ : &stereo_loss_, pose.rotation.data(),
+    ceres_.AddResidualBlock(&costs_.back(), IsMono(o) ? &*mono_loss_ : &*stereo_loss_, pose.rotation.data(),
                             pose.translation.data(), points_[o.point].data());
   }
 }
@@ -141,10 +145,11 @@ std::vector<double> BundleSolver::Chi2() const {
 
 std::vector<char> BundleSolver::Classify() const {
   const std::vector<double> chi2 = Chi2();
+  const double scale = GateScale(chi2);
   std::vector<char> is_inlier(chi2.size());
   for (size_t i = 0; i < chi2.size(); ++i) {
     const bool is_mono = IsMono(input_.observations[i]);
-    is_inlier[i] = chi2[i] <= (is_mono ? options_.max_chi2_mono : options_.max_chi2_stereo);
+    is_inlier[i] = chi2[i] <= scale * (is_mono ? options_.max_chi2_mono : options_.max_chi2_stereo);
   }
   if (options_.max_point_error_ratio > 0) RejectUnsteadyPoints(chi2, &is_inlier);
   return is_inlier;
@@ -170,8 +175,8 @@ void BundleSolver::RejectUnsteadyPoints(const std::vector<double>& chi2, std::ve
 
 void BundleSolver::KeepOnly(const std::vector<char>& is_inlier) {
   for (size_t i = 0; i < is_inlier.size(); ++i) costs_[i].SetActive(is_inlier[i]);
-  mono_loss_.Drop();
-  stereo_loss_.Drop();
+  mono_loss_->Drop();
+  stereo_loss_->Drop();
 }
 
 void BundleSolver::Export(const std::vector<char>& is_inlier, BundleProblem* problem) const {

@@ -7,6 +7,7 @@
 #include <ceres/solver.h>
 
 #include <deque>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -46,6 +47,8 @@ class BundleSolver {
 
   void AddParameters();
   void AddResiduals();
+  /// By how much the gates shrink, given the errors.
+  double GateScale(const std::vector<double>& chi2) const;
   std::vector<double> Chi2() const;  // one an observation
   void RejectUnsteadyPoints(const std::vector<double>& chi2, std::vector<char>* is_inlier) const;
 
@@ -54,7 +57,7 @@ class BundleSolver {
   std::vector<PoseBlock> poses_;
   std::vector<Eigen::Vector3d> points_;
   ceres::EigenQuaternionManifold manifold_;
-  Loss mono_loss_, stereo_loss_;
+  std::optional<Loss> mono_loss_, stereo_loss_;
   std::deque<ReprojectionCost> costs_;  // one an observation; a deque, as what Ceres points to may not move
   ceres::Problem ceres_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "optimization/noise_variance.h"
 #include "orbslam/geometry/so3.h"
 
 namespace orbslam {
@@ -42,7 +43,6 @@ void PoseCost::Add(const Eigen::Vector3d& point, const PixelMeasurement& m, bool
                            m.pixel,
                            {m.inverse_variance, m.inverse_variance, right_information},
                            m.max_chi2,
-                           std::sqrt(m.max_chi2),
                            is_backward,
                            true});
 }
@@ -77,15 +77,28 @@ double PoseCost::Chi2(int i, const State& state) const {
   return p.is_in_front && std::isfinite(p.chi2) ? p.chi2 : std::numeric_limits<double>::infinity();
 }
 
+std::vector<double> PoseCost::Chi2(const State& state) const {
+  std::vector<double> chi2;
+  chi2.reserve(observations_.size());
+  for (int i = 0; i < NumObservations(); ++i) chi2.push_back(Chi2(i, state));
+  return chi2;
+}
+
+void PoseCost::AdaptGates(const std::vector<double>& chi2) {
+  NoiseVariance noise;
+  for (size_t i = 0; i < chi2.size(); ++i) noise.Add(chi2[i], observations_[i].information.z() > 0 ? 3 : 2);
+  noise_variance_ = noise.Estimate();
+}
+
 // Huber's rho of the squared error; weight is its derivative.
 inline double PoseCost::Loss(const Observation& o, const Projected& p, double* weight) const {
-  if (!is_robust_ || p.chi2 <= o.max_chi2) {
+  const double max_chi2 = noise_variance_ * o.max_chi2;
+  if (!is_robust_ || p.chi2 <= max_chi2) {
     *weight = 1;
     return p.chi2;
   }
-  const double chi = std::sqrt(p.chi2);
-  *weight = o.max_chi / chi;
-  return 2 * o.max_chi * chi - o.max_chi2;
+  *weight = std::sqrt(max_chi2 / p.chi2);
+  return 2 * std::sqrt(max_chi2 * p.chi2) - max_chi2;
 }
 
 inline void PoseCost::Accumulate(const Observation& o, const State& state, PoseNormalEquations* sums) const {
@@ -104,7 +117,7 @@ inline void PoseCost::Accumulate(const Observation& o, const State& state, PoseN
   const double xz = w[0] * a * b, yz = w[1] * c * d;
   Eigen::Matrix3d jtj;
   jtj << w[0] * a * a, 0, xz,  //
-      0, w[1] * c * c, yz,              //
+      0, w[1] * c * c, yz,     //
       xz, yz, w[0] * b * b + w[1] * d * d + w[2] * e * e;
   const Eigen::Vector3d wr = w.cwiseProduct(p.residual);
   const Eigen::Vector3d jtr(a * wr[0], c * wr[1], b * wr[0] + d * wr[1] + e * wr[2]);

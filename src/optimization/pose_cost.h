@@ -50,7 +50,10 @@ class PoseCost {
   Rigid3d PoseAt(const Vector6d& parameters) const;
   /// Squared normalised error; infinite behind the camera or if anything is not finite.
   double Chi2(int i, const State& state) const;
-  bool IsWithinGate(int i, const State& state) const { return Chi2(i, state) <= observations_[i].max_chi2; }
+  std::vector<double> Chi2(const State& state) const;  // of each
+  /// From now on gates, and with them the loss, are in units of the noise that these errors show.
+  void AdaptGates(const std::vector<double>& chi2);
+  bool IsWithinGate(int i, double chi2) const { return chi2 <= noise_variance_ * observations_[i].max_chi2; }
 
   /// Inverse covariance of (w, t) at a state, of what is active.
   Matrix6d Information(const State& state) const;
@@ -63,7 +66,7 @@ class PoseCost {
     Eigen::Vector3d point;  // forward: in frame b by the prior; backward: in frame b
     Eigen::Vector3d pixel;
     Eigen::Vector3d information;  // 0 for what was not measured
-    double max_chi2, max_chi;
+    double max_chi2;
     bool is_backward, is_active;
   };
   struct Projected;
@@ -79,6 +82,7 @@ class PoseCost {
   Eigen::Matrix3d prior_rotation_;
   std::vector<Observation> observations_;
   bool is_robust_ = true;
+  double noise_variance_ = 1;  // as a multiple of what observations were given
 };
 
 }  // namespace orbslam

@@ -34,9 +34,11 @@ int ActivateUsable(PoseCost* cost) {
 }
 
 bool Reclassify(const PoseCost::State& state, PoseCost* cost) {
+  const std::vector<double> chi2 = cost->Chi2(state);
+  cost->AdaptGates(chi2);
   bool has_changed = false;
   for (int i = 0; i < cost->NumObservations(); ++i) {
-    const bool is_inlier = cost->IsWithinGate(i, state);
+    const bool is_inlier = cost->IsWithinGate(i, chi2[i]);
     has_changed |= is_inlier != cost->IsActive(i);
     cost->SetActive(i, is_inlier);
   }

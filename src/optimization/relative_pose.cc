@@ -115,7 +115,7 @@ RelativePoseResult RefineRelativePose(const RelativePoseProblem& problem, const 
   if (std::ranges::count(ActiveMatches(cost), 1) < kMinMatches) return result;
 
   const auto classify = [&cost](const PoseCost::State& state) {
-    return ActivatePairs(&cost, [&](int i) { return cost.IsWithinGate(i, state); });
+    return ActivatePairs(&cost, [&](int i) { return cost.IsWithinGate(i, cost.Chi2(i, state)); });
   };
   result.b_from_a =
       cost.PoseAt(OptimizeInRounds(options.num_rounds, options.max_iterations, &cost, classify));

@@ -97,6 +97,25 @@ TEST_P(BundleAdjusterTest, PointsAloneCanBeAdjusted) {
   EXPECT_LT(error, 1e-3);
 }
 
+/// The pixels are said to be exact to 1 px, but are to a third; two are then no noise.
+TEST_P(BundleAdjusterTest, GatesAreInUnitsOfTheNoiseThereIs) {
+  Rng rng(9);
+  test::BundleScene scene = test::MakeBundleScene({.noise_px = 0.3}, &rng);
+  const auto is_off = [](size_t i) { return i % 20 == 0; };
+  for (size_t i = 0; i < scene.problem.observations.size(); ++i) {
+    scene.problem.observations[i].inverse_variance = 1;
+    if (is_off(i)) scene.problem.observations[i].pixel.y() += 2.2;  // within 95 % of 1 px
+  }
+  const BundleSummary summary = SolveBundle({.solver = GetParam()}, {}, &scene.problem);
+  int num_off = 0, num_off_inliers = 0, num_others = 0, num_other_inliers = 0;
+  for (size_t i = 0; i < summary.is_inlier.size(); ++i) {
+    (is_off(i) ? num_off : num_others) += 1;
+    (is_off(i) ? num_off_inliers : num_other_inliers) += summary.is_inlier[i];
+  }
+  EXPECT_LT(num_off_inliers, 0.1 * num_off);
+  EXPECT_GT(num_other_inliers, 0.97 * num_others);
+}
+
 TEST_P(BundleAdjusterTest, APointThatSwaysIsNoPlaceIfMorePosesThanAFewSeeIt) {
   for (const int views : {20, 5}) {
     Rng rng(8);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimization/noise_variance.h"
+
+#include <algorithm>
+
+namespace orbslam {
+namespace {
+
+constexpr double kMedianChi2Of2 = 1.386, kMedianChi2Of3 = 2.366;
+constexpr double kLeast = 0.05, kMost = 1;
+
+}  // namespace
+
+void NoiseVariance::Add(double chi2, int num_dof) {
+  ratios_.push_back(chi2 / (num_dof == 3 ? kMedianChi2Of3 : kMedianChi2Of2));
+}
+
+double NoiseVariance::Estimate() {
+  if (ratios_.empty()) return 1;
+  const auto median = ratios_.begin() + std::ssize(ratios_) / 2;
+  std::ranges::nth_element(ratios_, median);
+  return std::clamp(*median, kLeast, kMost);
+}
+
+}  // namespace orbslam

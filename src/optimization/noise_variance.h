@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+namespace orbslam {
+
+/// Squared errors over the variance that was given to them (chi-squares), of which the median tells the
+/// variance that they really have: as long as most are inliers, how wrong the others are does not matter
+/// (Hampel, JASA 1974).
+class NoiseVariance {
+ public:
+  /// num_dof: 2, or 3 with a disparity.
+  void Add(double chi2, int num_dof);
+
+  /// As a multiple of the one that was given; 1 of no errors. At least 0.05, for no corner is found better
+  /// than to 0.2 px; at most 1, for what is above is no noise: then most are outliers.
+  double Estimate();
+
+ private:
+  std::vector<double> ratios_;  // to the median of a chi-square of as many degrees of freedom
+};
+
+}  // namespace orbslam
