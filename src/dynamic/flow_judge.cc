@@ -18,7 +18,8 @@ FrameMotion FlowJudge::Judge(const WorkingFrame& frame, uint64_t seed, SceneHist
   if (options.use_slow_flow && motion.IsTrusted() && older != nullptr) {
     slow = FlowSince(*older, frame, seed, history, &motion.camera);
     const ReferenceView* oldest = history->KeyframeOfAge(options.long_age_frames);
-    if (oldest != nullptr && oldest != older) slowest = LongFlowSince(*oldest, frame, seed, *history);
+    // What is too blurred over half a second is so over a second too.
+    if (slow && oldest != nullptr && oldest != older) slowest = LongFlowSince(*oldest, frame, seed, *history);
   }
   motion.flows.push_back(MakeFlow(motion.camera.corners, options_.corner_gate));
   if (slow) motion.flows.push_back(std::move(*slow));
