@@ -7,7 +7,7 @@ namespace orbslam::test {
 namespace {
 
 const Recording& Walk() {
-  static const Recording recording(Motion::kHalfsphere, 320, 80, /*stride=*/3);
+  static const Recording recording(Motion::kXyz, 320, 80, /*stride=*/3);
   return recording;
 }
 
