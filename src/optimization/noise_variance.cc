@@ -2,6 +2,8 @@
 #include "optimization/noise_variance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace orbslam {
 namespace {
@@ -12,7 +14,8 @@ constexpr double kLeast = 0.05, kMost = 1;
 }  // namespace
 
 void NoiseVariance::Add(double chi2, int num_dof) {
-  ratios_.push_back(chi2 / (num_dof == 3 ? kMedianChi2Of3 : kMedianChi2Of2));
+  const double ratio = chi2 / (num_dof == 3 ? kMedianChi2Of3 : kMedianChi2Of2);
+  ratios_.push_back(std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio);
 }
 
 double NoiseVariance::Estimate() {

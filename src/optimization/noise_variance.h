@@ -10,7 +10,7 @@ namespace orbslam {
 /// (Hampel, JASA 1974).
 class NoiseVariance {
  public:
-  /// num_dof: 2, or 3 with a disparity.
+  /// num_dof: 2, or 3 with a disparity. What is not a number is as wrong as can be.
   void Add(double chi2, int num_dof);
 
   /// As a multiple of the one that was given; 1 of no errors. At least 0.05, for no corner is found better

@@ -47,6 +47,7 @@ TEST(NoiseVariance, IsNeitherMoreThanWasSaidNorNothing) {
   EXPECT_EQ(Estimate(0, 0, 0, 2), 1);
   NoiseVariance behind_the_camera;
   behind_the_camera.Add(std::numeric_limits<double>::infinity(), 2);
+  behind_the_camera.Add(std::numeric_limits<double>::quiet_NaN(), 3);
   EXPECT_EQ(behind_the_camera.Estimate(), 1);
 }
 

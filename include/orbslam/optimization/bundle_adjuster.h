@@ -40,8 +40,8 @@ struct BundleOptions {
   int final_iterations = 10;       // at most; second round, without the outliers of the first; 0: none
   double max_chi2_mono = 5.991;    // chi-square, 2 dof, 95 %
   double max_chi2_stereo = 7.815;  // chi-square, 3 dof, 95 %
-  /// The gates are in units of the noise that the errors show, times this, if that is less than they were given:
-  /// with 2.5 they are passed by 99.9 %, for what is left out here is lost to the map.
+  /// The gates are in units of the noise that the errors show times this, if that is less than they were
+  /// given: 99.9 % pass, for what is left out here is lost to the map.
   double gate_margin = 2.5;
   /// Median squared error of a point that many poses see, over that of the median point: above, it is not one
   /// place (it moves, or is a silhouette), and none of its observations is an inlier. 0: any is.

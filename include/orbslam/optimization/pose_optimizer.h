@@ -39,10 +39,10 @@ struct PoseResult {
 
 /// The pose that minimises the Huber-weighted reprojection error of fixed points, by Ceres' TinySolver. After
 /// each round observations beyond the chi-square gate are left out of the next (and may come back); the last
-/// round has no robust loss. (ORB-SLAM2, Mur-Artal and Tardos 2017, section III-C "motion-only BA".) The gate
-/// is in units of the noise that the frame shows, if that is less than it was given: a Kinect's sharp pictures
-/// have a third of a pixel, and somebody who sways by two is far outside. With fewer than 3 observations the
-/// prior is returned and nothing is an inlier.
+/// round has no robust loss. (ORB-SLAM2, Mur-Artal and Tardos 2017, section III-C "motion-only BA".)
+/// Gates are in units of the noise that the frame shows, if that is less than it was given: a Kinect's sharp
+/// pictures have a third of a pixel, and somebody who sways by two is far outside.
+/// With fewer than 3 observations the prior is returned and nothing is an inlier.
 PoseResult OptimizePose(const PoseProblem& problem, const PoseOptimizerOptions& options = {});
 
 }  // namespace orbslam
