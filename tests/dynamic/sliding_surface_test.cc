@@ -83,6 +83,18 @@ TEST(SlidingSurface, EndsWhereTheDepthJumps) {
   EXPECT_EQ(cv::countNonZero(sliding), kBoard.area());
 }
 
+TEST(SlidingSurface, BeginsInTheCellsOfItsCorners) {
+  const Flow flow = MakeFlow(Corners({1, 0}), {});
+  cv::Mat1b sliding = SlidingCells(BoardBeforeWall(), flow, {.max_steps = 0});
+  int num_on_board = 0;
+  for (const TrackedCorner& corner : flow.corners) {
+    if (corner.depth_m > 2) continue;
+    EXPECT_EQ(sliding(CellOf(corner)), 255) << CellOf(corner);
+    ++num_on_board;
+  }
+  EXPECT_EQ(cv::countNonZero(sliding), num_on_board);
+}
+
 TEST(CornerGate, GrowsWithTheNoiseWithinItsBounds) {
   const CornerGateOptions options;
   float last = 0;
