@@ -124,9 +124,12 @@ bool WriteResults(const DatasetJob& job, const std::string& report, const System
 }
 
 /// What a run without a single pose must have been given; nullptr: there are poses.
-const char* ExplainFailure(const RunSummary& summary, int num_tracked) {
+const char* ExplainFailure(const DatasetJob& job, const RunSummary& summary, int num_tracked) {
   if (num_tracked > 0) return nullptr;
   if (summary.frames_processed == 0) return "no frame of the sequence could be read";
+  if (!job.load_map_path.empty()) {
+    return "no camera pose could be computed: no image shows a place of the loaded map";
+  }
   return "no camera pose could be computed: the images show too few corners with depth (dark, white or "
          "without depth?)";
 }
@@ -179,7 +182,7 @@ int RunDataset(const DatasetJob& job, const std::atomic<bool>& is_interrupted) {
     return kExitError;
   }
   if (summary.was_interrupted) return kExitInterrupted;
-  if (const char* reason = ExplainFailure(summary, system.counts().tracked)) {
+  if (const char* reason = ExplainFailure(job, summary, system.counts().tracked)) {
     spdlog::error("{}: {}", job.sequence_folder, reason);
     return kExitError;
   }

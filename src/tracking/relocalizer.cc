@@ -88,7 +88,7 @@ bool Relocalizer::TryKeyFrame(KeyFrameId id, const PlaceIndex::Words* words, Fra
   if (!keyframe) return false;
   const auto keyframe_words = places_ != nullptr ? places_->Find(id) : nullptr;
   MatchByAppearance(*keyframe, keyframe_words.get(), words, options_.max_ratio, frame);
-  if (frame->NumPoints() < options_.min_matches) return false;
+  if (frame->NumPoints() < options_.min_first_inliers) return false;
 
   int num_inliers = EstimatePose(map_, sensor_, frame);
   if (num_inliers < options_.min_first_inliers) return false;

@@ -48,6 +48,23 @@ TEST_P(RelocalizerTest, RolledCameraIsFoundToo) {
   EXPECT_THAT(frame.camera_from_world, Rigid3dNear(truth, 0.003, 0.003));
 }
 
+TEST_P(RelocalizerTest, AStripBesideSomebodyWhoFillsThePictureIsEnough) {
+  const Frame all = See(Turned(0.1));
+  FrameFeatures features = *all.features;
+  int num_visible = 0;
+  for (int i = 0; i < features.size(); ++i) {
+    const bool is_visible = features.pixels[i].x > 0.95f * static_cast<float>(sensor_.camera.width);
+    num_visible += is_visible;
+    if (!is_visible) features.descriptors[i] = RandomDescriptor(&rng_);
+  }
+  ASSERT_LT(num_visible, 50);
+  Frame frame = all;
+  frame.features = std::make_shared<const FrameFeatures>(std::move(features));
+  Relocalizer relocalizer = Make();
+  ASSERT_TRUE(relocalizer.Relocalize(&frame) || relocalizer.Relocalize(&frame));
+  EXPECT_THAT(frame.camera_from_world, Rigid3dNear(Turned(0.1), 0.003, 0.003));
+}
+
 TEST_P(RelocalizerTest, AnotherPlaceIsRefused) {
   Rng rng(99);
   const SyntheticView elsewhere = test::See(sensor_, RandomLandmarks(sensor_, 1600, &rng), Rigid3d(), &rng);

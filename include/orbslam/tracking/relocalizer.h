@@ -11,10 +11,9 @@
 namespace orbslam {
 
 struct RelocalizerOptions {
-  int min_matches = 15;         // by appearance, before geometry is tried
-  double max_ratio = 0.75;      // of those
-  int min_inliers = 50;         // map points that agree in the end (ORB-SLAM 2015, section V-C)
-  int min_first_inliers = 10;   // after the first pose
+  double max_ratio = 0.75;      // of matches by appearance
+  int min_first_inliers = 10;   // map points that agree on the first pose
+  int min_inliers = 20;         // in the end. ORB-SLAM (2015, section V-C): 50; the local map confirms here
   double wide_radius_px = 10;   // looking again with the first pose, px of a point's level ...
   double narrow_radius_px = 3;  // ... and with the second
   int max_tries = 8;            // keyframes tried a frame
