@@ -2,6 +2,7 @@
 #include "fast_corners.h"
 
 #include <algorithm>
+#include <array>
 
 #include "cpu.h"
 #include "orbslam/util/check.h"
@@ -51,6 +52,28 @@ const std::vector<Corner>& FastCorners::Detect(const cv::Mat& image, int border)
     if (min_threshold_ < threshold_) FindLonelyCorners(band, cell_width, first);
   }
   return corners_;
+}
+
+cv::Point2f FastCorners::PeakOffset(const cv::Mat& image, const Corner& corner) const {
+  constexpr float kMaxPx = 0.49f;  // farther, another pixel would be the corner
+  std::array<std::array<uint8_t, kFastBlock>, 3> s;
+  for (int row = 0; row < 3; ++row) {
+    kernel_.score_row(image.ptr(corner.y - 1 + row) + corner.x - 1, static_cast<ptrdiff_t>(image.step), 3,
+                      /*threshold=*/1, s[row].data());
+  }
+  // Least squares over the nine scores: gradient and second derivatives in the middle.
+  float gx = 0, gy = 0, xx = 0, yy = 0;
+  for (int i = 0; i < 3; ++i) {
+    gx += static_cast<float>(s[i][2] - s[i][0]) / 6;
+    gy += static_cast<float>(s[2][i] - s[0][i]) / 6;
+    xx += static_cast<float>(s[i][0] - 2 * s[i][1] + s[i][2]) / 3;
+    yy += static_cast<float>(s[0][i] - 2 * s[1][i] + s[2][i]) / 3;
+  }
+  const float xy = static_cast<float>(s[0][0] - s[0][2] - s[2][0] + s[2][2]) / 4;
+  const float determinant = xx * yy - xy * xy;
+  if (!(xx < 0 && determinant > 0)) return {0, 0};
+  return {std::clamp((xy * gy - yy * gx) / determinant, -kMaxPx, kMaxPx),
+          std::clamp((xy * gx - xx * gy) / determinant, -kMaxPx, kMaxPx)};
 }
 
 void FastCorners::FindCorners(const Band& band, int begin_column, int end_column, int threshold) {

@@ -26,6 +26,10 @@ class FastCorners {
   /// nothing but the image. Valid until the next call.
   const std::vector<Corner>& Detect(const cv::Mat& image, int border);
 
+  /// From a corner's pixel to where its score is highest, at most half a pixel away: the peak of the quadric
+  /// that fits the 3 x 3 scores best (Haralick, IJCV 1987, the facet model).
+  cv::Point2f PeakOffset(const cv::Mat& image, const Corner& corner) const;
+
  private:
   // Scores of the rows of one band of cells, and of one row and column more on each side.
   struct Band {

@@ -62,9 +62,9 @@ class ToFullSize {
       : scale_u_(static_cast<float>(full.cols) / static_cast<float>(level.cols)),
         scale_v_(static_cast<float>(full.rows) / static_cast<float>(level.rows)) {}
 
-  cv::Point2f operator()(const Corner& corner) const {
-    return {(static_cast<float>(corner.x) + 0.5f) * scale_u_ - 0.5f,
-            (static_cast<float>(corner.y) + 0.5f) * scale_v_ - 0.5f};
+  cv::Point2f operator()(const Corner& corner, cv::Point2f offset = {}) const {
+    return {(static_cast<float>(corner.x) + offset.x + 0.5f) * scale_u_ - 0.5f,
+            (static_cast<float>(corner.y) + offset.y + 0.5f) * scale_v_ - 0.5f};
   }
 
  private:
@@ -115,7 +115,7 @@ void OrbExtractor::Impl::DescribeLevel(int index, const cv::Mat& mask, OrbFeatur
   for (const Corner& corner : SpreadByQuadTree(candidates, level.Area(), level.wanted)) {
     const float angle_deg =
         CentroidAngleDeg(level.image.ptr(corner.y) + corner.x, static_cast<ptrdiff_t>(level.image.step));
-    const cv::Point2f position = to_full_size(corner);
+    const cv::Point2f position = to_full_size(corner, finder.PeakOffset(level.image, corner));
     features->keypoints.push_back(
         {position.x, position.y, angle_deg, static_cast<float>(corner.score), index});
     features->descriptors.push_back(DescribePixel(level.smooth.ptr(corner.y) + corner.x,

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <tuple>
 
@@ -85,6 +87,39 @@ TEST(FastCorners, WeakOnesAreKeptWhereNoStrongOneIsNear) {
   }
   EXPECT_TRUE(weak_alone);
   for (const Corner& c : strong_only.Detect(image, 19)) EXPECT_LT(c.x, 150);
+}
+
+/// The offsets must make up for most of what the pixels' grid hides of a shift of the whole image.
+TEST(FastCorners, PeaksFollowAShiftByPartsOfAPixel) {
+  cv::Mat image = ShapesImage({640, 480}, 5);
+  cv::GaussianBlur(image, image, {0, 0}, 1);  // as an optic does; a shifted image must not lose more
+  const cv::Point2f shift(0.4f, -0.3f);
+  cv::Mat shifted;
+  cv::warpAffine(image, shifted, cv::Matx23f(1, 0, shift.x, 0, 1, shift.y), image.size(), cv::INTER_CUBIC);
+  FastCorners detector(20, 20);
+  const std::vector<Corner> before = detector.Detect(image, 19);
+  double error_of_peaks = 0, error_of_pixels = 0;
+  int num_pairs = 0;
+  for (const Corner& now : detector.Detect(shifted, 19))
+    for (const Corner& then : before) {
+      const cv::Point2f step(static_cast<float>(now.x - then.x), static_cast<float>(now.y - then.y));
+      if (cv::norm(step) > 1.5) continue;
+      const cv::Point2f finer = step + detector.PeakOffset(shifted, now) - detector.PeakOffset(image, then);
+      error_of_pixels += (step - shift).dot(step - shift);
+      error_of_peaks += (finer - shift).dot(finer - shift);
+      ++num_pairs;
+    }
+  ASSERT_GT(num_pairs, 200);
+  EXPECT_LT(std::sqrt(error_of_peaks / num_pairs), 0.6 * std::sqrt(error_of_pixels / num_pairs));
+}
+
+TEST(FastCorners, PeaksStayInTheirPixel) {
+  const cv::Mat image = NoiseImage({200, 150}, 7);
+  FastCorners detector(20, 7);
+  for (const Corner& corner : detector.Detect(image, 19)) {
+    const cv::Point2f offset = detector.PeakOffset(image, corner);
+    EXPECT_LT(std::max(std::abs(offset.x), std::abs(offset.y)), 0.5f);
+  }
 }
 
 TEST(FastCorners, StayInsideTheBorder) {

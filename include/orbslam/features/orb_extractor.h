@@ -11,10 +11,10 @@ namespace orbslam {
 
 /// A corner in a raw (distorted) image.
 struct OrbKeypoint {
-  float u = 0, v = 0;     // px, in the full-size image
-  float angle_deg = 0;    // of the intensity centroid, in [0, 360)
-  float response = 0;     // FAST score
-  int level = 0;          // of the pyramid; its scale is scale_factor^level
+  float u = 0, v = 0;   // px, in the full-size image: the peak of the FAST score, finer than a pixel
+  float angle_deg = 0;  // of the intensity centroid, in [0, 360)
+  float response = 0;   // FAST score
+  int level = 0;        // of the pyramid; its scale is scale_factor^level
 };
 
 struct OrbFeatures {
@@ -45,7 +45,7 @@ class OrbExtractor {
   /// copied: it must stay as it is until the last Describe of it):
   void FindCorners(const cv::Mat& image);
   /// num_features of them, spread over what is off the mask (CV_8UC1 of the image's size, non-zero: no
-  /// keypoints there; or empty), so that what is masked takes no keypoint from the rest.
+  /// corner's pixel there; or empty), so that what is masked takes no keypoint from the rest.
   OrbFeatures Describe(const cv::Mat& mask);
 
   const OrbExtractorOptions& options() const;
