@@ -141,6 +141,20 @@ PoseFromCorners CameraMotionEstimator::PoseOf(std::span<const TrackedCorner> cor
   return EstimatePose(grids_.gray, matches, {predicted, Rigid3d()}, options_.pose, &rng);
 }
 
+/// Where somebody leaves little of the room in view, too few corners for a pose of their own may still
+/// confirm the depth's.
+PoseFromCorners CameraMotionEstimator::PoseOfFew(std::span<const TrackedCorner> corners,
+                                                 const Rigid3d& depth_motion, uint64_t seed) const {
+  PoseFromCornersOptions options = options_.pose;
+  options.min_inliers = options_.min_inliers_with_depth;
+  options.num_draws = 0;
+  const PosePrior prior{
+      depth_motion, IsotropicInformation(options_.icp.prior_rotation_rad, options_.icp.prior_translation_m)};
+  Rng rng(seed, 4, 0xE60);
+  return EstimatePose(grids_.gray, RestingMatches(grids_.gray, corners), {depth_motion}, options, &rng,
+                      &prior);
+}
+
 CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const WorkingFrame& current,
                                              uint64_t seed) {
   const ReferenceView& previous = *history.Back(1);
@@ -149,8 +163,7 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
   CameraMotion motion;
   motion.corners = FollowCorners(grids_, previous, current, predicted, Baseline::kShort, options_.flow);
 
-  const PoseFromCorners from_corners = PoseOf(motion.corners, predicted, seed);
-  motion.num_inliers = from_corners.num_inliers;
+  PoseFromCorners from_corners = PoseOf(motion.corners, predicted, seed);
   motion.color_current_from_previous = from_corners.ok ? from_corners.current_from_previous : predicted;
 
   std::vector<IcpTarget> targets{{previous.frame.get(), &previous.moving, {}}};
@@ -167,7 +180,11 @@ CameraMotion CameraMotionEstimator::Estimate(const SceneHistory& history, const 
       FitsDepth(grids_.cell, current, targets, motion.color_current_from_previous, motion.fit_share,
                 options_.icp);
   if (motion.is_depth_misled) motion.depth_current_from_previous = motion.color_current_from_previous;
-
+  if (!from_corners.ok && motion.fit_share >= options_.min_fit_share) {
+    from_corners = PoseOfFew(motion.corners, motion.depth_current_from_previous, seed);
+    if (from_corners.ok) motion.color_current_from_previous = from_corners.current_from_previous;
+  }
+  motion.num_inliers = from_corners.num_inliers;
   MeasureExcess(grids_.gray, motion.color_current_from_previous, &motion.corners);
   inlier_px_ = NextInlierPx(motion.corners, options_);
   if (!from_corners.ok) motion.failure = "too few corners could be followed";

@@ -41,8 +41,8 @@ class CameraMotionEstimator {
   /// seed: of the random draws, for example the frame's id.
   CameraMotion Estimate(const SceneHistory& history, const WorkingFrame& current, uint64_t seed);
   /// last: the frame before this one, whose mask is newer. seed: as above.
-  OlderCorners FollowFrom(const ReferenceView& older, const ReferenceView& last,
-                          const WorkingFrame& current, uint64_t seed) const;
+  OlderCorners FollowFrom(const ReferenceView& older, const ReferenceView& last, const WorkingFrame& current,
+                          uint64_t seed) const;
   /// Once something near turned out to be followed: the motion since the last frame, by what is farther than
   /// split_m. As it was, if that does not tell.
   void FollowFar(const ReferenceView& last, const WorkingFrame& current, double split_m, uint64_t seed,
@@ -53,6 +53,8 @@ class CameraMotionEstimator {
   Rigid3d Predict(double interval_s) const;
   PoseFromCorners PoseOf(std::span<const TrackedCorner> corners, const Rigid3d& predicted,
                          uint64_t seed) const;
+  PoseFromCorners PoseOfFew(std::span<const TrackedCorner> corners, const Rigid3d& depth_motion,
+                            uint64_t seed) const;
   std::optional<FarMotion> FarMotionSince(const ReferenceView& older, const WorkingFrame& current,
                                           std::span<const CornerMatch> matches, uint64_t seed) const;
   PoseFromCorners PoseSince(const ReferenceView& older, const std::vector<CornerMatch>& matches,

@@ -146,10 +146,10 @@ void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const Ref
   }
   BackgroundView background;
   if (options_.growth.use_background) background = RenderBackground(reducer_.grids().cell, frame, references);
-  const cv::Mat1f odds = judgement->motion.IsTrusted()
-                             ? DepthlessLogOdds(frame, judgement->carried, background,
-                                                judgement->motion.camera.corners, options_.growth)
-                             : judgement->carried;  // nothing is known of this frame
+  const std::vector<TrackedCorner> no_corners;
+  const cv::Mat1f odds = DepthlessLogOdds(
+      frame, judgement->carried, background,
+      judgement->motion.IsTrusted() ? judgement->motion.camera.corners : no_corners, options_.growth);
   cv::Mat1b contact;
   cv::dilate(judgement->moving, contact, cv::Mat::ones(2 * kContactCells + 1, 2 * kContactCells + 1, CV_8U));
   const cv::Mat1b grown =

@@ -77,6 +77,7 @@ void LocalMapTracker::CollectCandidates(const MapData& map, const Frame& frame,
       const Eigen::Vector3d x_camera = frame.camera_from_world * point.position_world;
       if (moving.Covers(x_camera)) {
         if (moving.Shows(x_camera)) result->on_moving.push_back(id);
+        if (moving.MayShow(x_camera)) result->near_moving.push_back(id);
         continue;
       }
       if (moving.SeesThrough(x_camera)) result->seen_through.push_back(id);

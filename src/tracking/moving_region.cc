@@ -35,12 +35,12 @@ bool MovingRegion::Covers(const Eigen::Vector3d& x_camera) const {
   return !IsEmpty() && IsSet(mask_, RawPixel(x_camera));
 }
 
-bool MovingRegion::Shows(const Eigen::Vector3d& x_camera) const {
+bool MovingRegion::IsShownWithin(double step_m, const Eigen::Vector3d& x_camera) const {
   if (IsEmpty()) return false;
   const cv::Point pixel = RawPixel(x_camera);
   if (!IsSet(core_, pixel)) return false;
   const double depth_m = depth_m_.at<float>(pixel);
-  return depth_m > 0 && std::abs(depth_m - x_camera.z()) < ToleranceM(x_camera.z());
+  return depth_m > 0 && std::abs(depth_m - x_camera.z()) < ToleranceM(x_camera.z()) + step_m;
 }
 
 bool MovingRegion::SeesThrough(const Eigen::Vector3d& x_camera) const {

@@ -4,6 +4,24 @@
 #include "orbslam/tracking/moving_region.h"
 
 namespace orbslam {
+namespace {
+
+std::vector<std::pair<MapPointId, KeyFrameId>> RecentObservations(const MapData& map,
+                                                                  const std::vector<MapPointId>& points,
+                                                                  double since_s) {
+  std::vector<std::pair<MapPointId, KeyFrameId>> recent;
+  for (const MapPointId id : points) {
+    const MapPoint* point = map.Find(id);
+    if (point == nullptr) continue;
+    for (const Observation& observation : point->observations) {
+      if (map.Find(observation.keyframe)->timestamp_s > since_s)
+        recent.emplace_back(id, observation.keyframe);
+    }
+  }
+  return recent;
+}
+
+}  // namespace
 
 void PointJudge::Judge(const LocalMapTracker::Result& found, const Frame& frame, const Frame* last) {
   for (const MapPointId id : found.on_moving) quarantine_.Refute(id);
@@ -24,6 +42,14 @@ void PointJudge::RefuteSeenThrough(const std::vector<MapPointId>& seen_through, 
     const Eigen::Vector2d shift_px = sensor_.camera.Project(x_camera) - sensor_.camera.Project(x_last);
     if (x_last.z() > 0 && shift_px.norm() < MovingRegion::kRimPx) quarantine_.Refute(id);
   }
+}
+
+void PointJudge::Retract(const std::vector<MapPointId>& points, double since_s) {
+  const auto recent = RecentObservations(*map_->Read(), points, since_s);
+  if (recent.empty()) return;
+  const auto guard = map_->Write();
+  for (const auto& [point, keyframe] : recent) guard->RemoveObservation(point, keyframe);
+  for (const auto& [point, keyframe] : recent) guard->RefreshMapPoint(point);
 }
 
 void PointJudge::EraseCondemned() {

@@ -175,8 +175,17 @@ bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
     return false;
   reference_ = result.reference;
-  if (makes_keyframes_) point_judge_.Judge(result, *frame, last_ ? &*last_ : nullptr);
+  if (makes_keyframes_) JudgePoints(result, *frame);
   return true;
+}
+
+/// What is seen to move now may have done so for a while, unseen, and have bent poses and map.
+void Tracking::JudgePoints(const LocalMapTracker::Result& found, const Frame& frame) {
+  point_judge_.Judge(found, frame, last_ ? &*last_ : nullptr);
+  if (found.near_moving.empty()) return;
+  const double since_s = frame.timestamp_s - options_.max_unseen_s;
+  point_judge_.Retract(found.near_moving, since_s);
+  reviser_.Retract(found.near_moving, since_s);
 }
 
 bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const {

@@ -19,12 +19,13 @@ struct Pair {
 };
 
 /// The motion from one rendered frame to the next, after eight frames of history with true poses.
-Pair Estimate(const std::function<std::vector<RoomBox>(uint32_t)>& movers) {
+Pair Estimate(const std::function<std::vector<RoomBox>(uint32_t)>& movers,
+              const CameraMotionOptions& options = {}) {
   constexpr uint32_t kLast = 9;
   const RenderedRoom room;
   const FrameReducer reducer(room.camera);
   SceneHistory history(reducer.grids().cell, {}, 0);
-  CameraMotionEstimator estimator(reducer.grids(), {});
+  CameraMotionEstimator estimator(reducer.grids(), options);
   for (uint32_t frame = 0; frame < kLast; ++frame) {
     const Rigid3d motion = Inverse(Sway(frame == 0 ? 0 : frame - 1)) * Sway(frame);
     if (frame > 0) history.Advance(motion, motion);
@@ -56,6 +57,17 @@ TEST(CameraMotion, IsRecoveredThoughSomethingNearMoves) {
   int num_moving = 0;
   for (const TrackedCorner& corner : pair.motion.corners) num_moving += corner.residual_px > 3;
   EXPECT_GT(num_moving, 10);
+}
+
+TEST(CameraMotion, TooFewCornersDoWhereTheyConfirmTheDepths) {
+  const auto nobody = [](uint32_t) { return std::vector<RoomBox>{}; };
+  CameraMotionOptions options;
+  options.pose.min_inliers = 1000;
+  const Pair few = Estimate(nobody, options);
+  EXPECT_EQ(few.motion.failure, "");
+  ExpectNear(few.motion.color_current_from_previous, few.truth);
+  options.min_inliers_with_depth = 1000;
+  EXPECT_EQ(Estimate(nobody, options).motion.failure, "too few corners could be followed");
 }
 
 TEST(Segmenter, SplitsAtDepthEdgesAndLeavesOutWhatIsExcluded) {

@@ -61,11 +61,27 @@ class MaskedTrackingTest : public testing::Test {
   }
   FrameReport ShowMasked(int board_u) { return Show(board_u, Mask(BoardAt(board_u))); }
 
+  static bool IsOnBoard(const MapPoint& point) { return point.position_world.z() < (kBoardM + kWallM) / 2; }
   int NumPointsOnBoard() const {
     int count = 0;
     const auto map = map_.Read();
-    for (const MapPoint& point : map->MapPoints()) count += point.position_world.z() < (kBoardM + kWallM) / 2;
+    for (const MapPoint& point : map->MapPoints()) count += IsOnBoard(point);
     return count;
+  }
+  int NumObservationsOfBoardSince(double since_s) const {
+    int count = 0;
+    const auto map = map_.Read();
+    for (const MapPoint& point : map->MapPoints())
+      for (const Observation& observation : point.observations)
+        count += IsOnBoard(point) && map->Find(observation.keyframe)->timestamp_s > since_s;
+    return count;
+  }
+  int NumOnBoard(const std::vector<Sighting>& sightings) const {
+    const auto map = map_.Read();
+    return static_cast<int>(std::ranges::count_if(sightings, [&](const Sighting& sighting) {
+      const MapPoint* point = map->Find(sighting.point);
+      return point != nullptr && IsOnBoard(*point);
+    }));
   }
 
   const Sensor sensor_ = KinectSensor();
@@ -97,6 +113,25 @@ TEST_F(MaskedTrackingTest, PointsOnWhatTurnsOutToMoveAreErasedAndOthersStay) {
   EXPECT_LT(NumPointsOnBoard(), 0.25 * num_on_board) << "all but those at the rim";
   EXPECT_GE(map_.Read()->num_points(), num_points - num_on_board);
   EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty());
+}
+
+/// It may have moved for a while before anyone saw that it does.
+TEST_F(MaskedTrackingTest, WhatWasSeenLatelyOfWhatTurnsOutToMoveNoLongerCounts) {
+  const cv::Mat most = Mask({size_.width / 4, 0, 3 * size_.width / 4, size_.height});
+  for (int i = 0; i < 45; ++i) Show(0, most);
+  ASSERT_TRUE(Show(0, {}).new_keyframe) << "much has come into view";
+  const double second_ago_s = num_shown_ / 30.0 - 1;
+  const int num_on_board = NumPointsOnBoard(), num_lately = NumObservationsOfBoardSince(second_ago_s);
+  ASSERT_GT(num_lately, 50);
+  ShowMasked(0);
+  EXPECT_GT(NumPointsOnBoard(), num_on_board / 2) << "the first keyframe is older";
+  EXPECT_LT(NumObservationsOfBoardSince(second_ago_s), 0.25 * num_lately) << "all but those at the rim";
+  EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty());
+  std::vector<int> before, lately;  // points on the board that a frame sees
+  for (const PastFrame& frame : tracking_.ReviseRest())
+    (frame.timestamp_s < second_ago_s ? before : lately).push_back(NumOnBoard(frame.sightings));
+  ASSERT_FALSE(before.empty() || lately.empty());
+  EXPECT_LT(std::ranges::max(lately), 0.3 * std::ranges::min(before));
 }
 
 TEST_F(MaskedTrackingTest, PointsOnWhatIsGoneAreErasedAndOthersStay) {

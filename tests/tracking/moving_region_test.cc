@@ -51,6 +51,17 @@ TEST_F(MovingRegionTest, ShowsWhatIsOnTheObjectAndNotWhatIsBehindOrAtItsRim) {
   EXPECT_FALSE(moving.Shows(PointAt(100, 150)));
 }
 
+TEST_F(MovingRegionTest, MayShowWhatTheObjectHasLeftByAStep) {
+  const MovingRegion moving(sensor_, mask_, depth_m_);
+  for (const double step_m : {-0.1, 0.0, 0.1}) {
+    EXPECT_TRUE(moving.MayShow(PointAt(250, 150, kDepthM + step_m))) << step_m;
+    EXPECT_EQ(moving.Shows(PointAt(250, 150, kDepthM + step_m)), step_m == 0);
+  }
+  EXPECT_FALSE(moving.MayShow(PointAt(250, 150, kDepthM + 0.5))) << "hidden by it";
+  EXPECT_FALSE(moving.MayShow(PointAt(202, 150))) << "at its rim";
+  EXPECT_FALSE(moving.MayShow(PointAt(100, 150)));
+}
+
 TEST_F(MovingRegionTest, NothingIsShownWhereThereIsNoDepth) {
   depth_m_ = 0;
   const MovingRegion moving(sensor_, mask_, depth_m_);

@@ -44,6 +44,29 @@ TEST_F(PoseReviserTest, EachFrameHasItsTurnOnceWhenItIsOldEnough) {
   EXPECT_EQ(reviser_.ReviseUntil(kForever).size(), 3u);
 }
 
+TEST_F(PoseReviserTest, WhatIsRetractedCountsInOlderFramesAlone) {
+  std::vector<PastFrame> frames;
+  for (int i = 0; i < 4; ++i) {
+    frames.push_back(FrameWithWrongPose());
+    reviser_.Keep(frames.back());
+  }
+  std::vector<MapPointId> set_off;
+  for (size_t i = 0; i < frames[0].sightings.size(); i += 4) set_off.push_back(frames[0].sightings[i].point);
+  std::ranges::reverse(set_off);  // any order
+  reviser_.Retract(set_off, frames[1].timestamp_s);
+  const std::vector<PastFrame> revised = reviser_.ReviseUntil(kForever);
+  ASSERT_EQ(revised.size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    const auto num_set_off = std::ranges::count_if(revised[i].sightings, [&](const Sighting& sighting) {
+      return std::ranges::count(set_off, sighting.point) > 0;
+    });
+    EXPECT_EQ(num_set_off, i < 2 ? std::ssize(set_off) : 0) << i;
+    EXPECT_EQ(std::ssize(revised[i].sightings) - num_set_off,
+              std::ssize(frames[i].sightings) - std::ssize(set_off));
+    EXPECT_THAT(revised[i].camera_from_reference, Rigid3dNear(truth_, kMaxErrorM, kMaxErrorRad));
+  }
+}
+
 TEST_F(PoseReviserTest, WhatIsNotFoundAgainIsForgotten) {
   PastFrame blind = FrameWithWrongPose();
   blind.sightings.clear();

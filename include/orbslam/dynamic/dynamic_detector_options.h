@@ -80,6 +80,7 @@ struct CameraMotionOptions {
   double max_clock_share =
       0.25;            // of the motion: colour and depth are up to half an interval apart, and that varies
   int far_target = 8;  // frames back: second target of the alignment, against drift
+  int min_inliers_with_depth = 6;  // corners, where the depth's motion is their prior: that is worth six others
   double min_fit_share = 0.5;  // of the paired depth within the gate; below, the motion is not trusted
 };
 

@@ -25,6 +25,7 @@ class LocalMapTracker {
     KeyFrameId reference;  // the keyframe that shares most points with the frame; invalid: none does
     // Local points, by the frame's first pose:
     std::vector<MapPointId> on_moving;     // a moving object shows them
+    std::vector<MapPointId> near_moving;   // those, and others that it may have shown a moment ago
     std::vector<MapPointId> seen_through;  // the frame sees what is behind them
   };
   /// frame must have a first pose and first points. Counts what was visible and what was found; what moving

@@ -20,6 +20,8 @@ class PointJudge {
   /// found: by frame, whose pose is known. last: the last one that was tracked before; nullptr: there was
   /// none.
   void Judge(const LocalMapTracker::Result& found, const Frame& frame, const Frame* last);
+  /// What keyframes after since_s saw of these points no longer counts: it is taken out of the map.
+  void Retract(const std::vector<MapPointId>& points, double since_s);
   /// Takes the points out of the map that enough frames have spoken against.
   void EraseCondemned();
 

@@ -20,6 +20,9 @@ class PoseReviser {
   /// frame: later than those before.
   void Keep(PastFrame frame) { kept_.push_back(std::move(frame)); }
 
+  /// What frames after since_s saw of these points no longer counts.
+  void Retract(std::vector<MapPointId> points, double since_s);
+
   /// The frames taken until then are done with and forgotten; those whose pose was found anew.
   std::vector<PastFrame> ReviseUntil(double timestamp_s);
 

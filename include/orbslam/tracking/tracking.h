@@ -56,6 +56,7 @@ class Tracking {
   bool FindFirstPose(Frame* frame);
   bool TakeBetterPose(Frame* frame);
   bool RefineOnLocalMap(Frame* frame, FrameReport* report);
+  void JudgePoints(const LocalMapTracker::Result& found, const Frame& frame);
   void FollowMapCorrections();
   bool WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;
   void InsertKeyFrame(Frame* frame, FrameReport* report);

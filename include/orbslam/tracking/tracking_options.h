@@ -24,7 +24,8 @@ struct TrackingOptions {
                                     // margin for keypoints that are no map points
   double doubtful_share = 0.5;      // of the image, masked: most of what is seen then moves, and may ...
   double max_doubt_s = 1;           // ... still be there so long after, unseen by the detector
-  double min_view_cos = 0.5;  // 60 degrees from a point's mean viewing direction
+  double max_unseen_s = 1;      // who sets off is known after so long; what was seen of him until then goes
+  double min_view_cos = 0.5;    // 60 degrees from a point's mean viewing direction
   double revision_delay_s = 3;  // after which a frame's pose is looked for again; 0: never. Who set off is
                                 // known after one second, the last adjustment done after two
 };
@@ -39,9 +40,9 @@ struct KeyFramePolicyOptions {
   // first keyframe only. With 0.4 a camera before walkers follows a third of its keypoints; from
   // 0.7 on the chain of keyframes grows long, and its drift outweighs what more points gain.
   double min_tracked_ratio_all = 0.6;
-  double weak_share = 1.0 / 3;  // fewer than this share of either: even if the mapper is busy
-  int min_tracked_close = 100;       // fewer close points tracked ...
-  int min_untracked_close = 70;      // ... while so many could be made
+  double weak_share = 1.0 / 3;   // fewer than this share of either: even if the mapper is busy
+  int min_tracked_close = 100;   // fewer close points tracked ...
+  int min_untracked_close = 70;  // ... while so many could be made
   int min_inliers = 15;
   int min_depth_points = 1000;  // depth points made at a keyframe, closest first, even beyond the close
                                 // limit. ORB-SLAM2: 100; far ones hold the rotation where nothing is close
