@@ -11,12 +11,12 @@ const Recording& Rounds() {
   return recording;
 }
 
-// The system is told a focal length that is too long, so it takes every turn for too small: about 10 degrees
-// a round, while it has nothing else to go by. Too long a depth keeps the size of the map about right.
-constexpr double kFocalFactor = 1.03, kDepthFactor = 1.036;
+// The system is told a focal length that is too long, so it takes every turn for too small, while it has
+// nothing else to go by. Too long a depth keeps the size of the map about right.
+constexpr double kFocalFactor = 1.01, kDepthFactor = 1.012;
 
 // Each keyframe is followed for long, so that the drift is large beside what the wrong focal length bends.
-constexpr double kTrackedRatio = 0.3;
+constexpr double kTrackedRatio = 0.2;
 
 struct Outcome {
   double ate_m = 0;
