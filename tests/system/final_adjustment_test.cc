@@ -8,7 +8,7 @@ namespace {
 
 /// Nearly a round of the room: local adjustments leave centimetres of drift.
 const Recording& Walk() {
-  static const Recording recording(Motion::kLoop, 320, 250, /*stride=*/3);
+  static const Recording recording(Motion::kLoop, 320, 200, /*stride=*/3);
   return recording;
 }
 
