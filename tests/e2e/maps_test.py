@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps that are saved, loaded and localised in; map and vocabulary files that are wrong."""
+import io
 import os
 
 import numpy as np
+from PIL import Image
 
 from support import ROOT, RgbdTumTest, run_or_skip
 
@@ -52,6 +54,18 @@ class Maps(RgbdTumTest):
         self.assertEqual(self.report(again)["map"]["keyframes"], keyframes)
         self.assertEqual(len(after), len(before))
         self.assertLess(np.sqrt(np.mean(np.sum((after - before) ** 2, axis=1))), 0.02)  # m
+
+    def test_localising_elsewhere_says_so(self):
+        self.save_map()
+        with Image.open(self.sequence.path(self.sequence.entries[0][1])) as image:
+            noise = np.random.default_rng(1).integers(0, 256, (image.height, image.width, 3), np.uint8)
+        content = io.BytesIO()
+        Image.fromarray(noise).save(content, "PNG")
+        for entry in self.sequence.entries:
+            self.sequence.write(entry[1], content.getvalue())
+        result = self.run_tum("--sequential", "--load-map", self.map, "--localization")
+        self.assertEqual(result.returncode, 2)
+        self.assert_says(result, "error", self.sequence.folder, "no image shows a place of the loaded map")
 
     def test_localising_wants_a_map(self):
         self.assert_refused(self.run_tum("--localization"), "--load-map")
