@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "icp.h"
+#include "orbslam/geometry/depth_split.h"
 #include "orbslam/geometry/so3.h"
 
 namespace orbslam {
@@ -14,20 +15,10 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// The depth between two groups of corners whose log depths differ most (Otsu, IEEE SMC 1979).
-double SplitDepthM(std::span<const CornerMatch> matches) {
-  std::vector<double> logs;
-  for (const CornerMatch& match : matches) logs.push_back(std::log(match.x_previous.z()));
-  std::ranges::sort(logs);
-  double rest = 0, sum = 0, best = 0, split = 0;
-  for (const double value : logs) rest += value;
-  for (size_t i = 0; i + 1 < logs.size(); ++i) {
-    sum += logs[i], rest -= logs[i];
-    const auto below = static_cast<double>(i + 1), above = static_cast<double>(logs.size()) - below;
-    const double gap = rest / above - sum / below, between = below * above * gap * gap;
-    if (between > best) best = between, split = (logs[i] + logs[i + 1]) / 2;
-  }
-  return std::exp(split);
+double SplitOfMatchesM(std::span<const CornerMatch> matches) {
+  std::vector<double> depths_m;
+  for (const CornerMatch& match : matches) depths_m.push_back(match.x_previous.z());
+  return SplitDepthM(depths_m);
 }
 
 struct Layers {
@@ -115,7 +106,7 @@ bool Deviates(const GridCamera& camera, const FarEstimate& far, const CornerMatc
 
 std::optional<FarMotion> ContradictedFarMotion(const WorkingGrids& grids, const FarQuery& query,
                                                const CameraMotionOptions& options, Rng* rng) {
-  const double split_m = SplitDepthM(query.matches);
+  const double split_m = SplitOfMatchesM(query.matches);
   const Layers layers = SplitAt(split_m, query.matches);
   const auto num_near = std::ssize(layers.near), num_far = std::ssize(layers.far);
   if (num_near < options.far.min_near || num_far < options.far.min_far) return {};

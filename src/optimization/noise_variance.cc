@@ -9,7 +9,7 @@ namespace orbslam {
 namespace {
 
 constexpr double kMedianChi2Of2 = 1.386, kMedianChi2Of3 = 2.366;
-constexpr double kLeast = 0.05, kMost = 1;
+constexpr double kMost = 1;
 
 }  // namespace
 
@@ -18,11 +18,11 @@ void NoiseVariance::Add(double chi2, int num_dof) {
   ratios_.push_back(std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio);
 }
 
-double NoiseVariance::Estimate() {
+double NoiseVariance::Estimate(double least) {
   if (ratios_.empty()) return 1;
   const auto median = ratios_.begin() + std::ssize(ratios_) / 2;
   std::ranges::nth_element(ratios_, median);
-  return std::clamp(*median, kLeast, kMost);
+  return std::clamp(*median, least, kMost);
 }
 
 }  // namespace orbslam

@@ -13,9 +13,9 @@ class NoiseVariance {
   /// num_dof: 2, or 3 with a disparity. What is not a number is as wrong as can be.
   void Add(double chi2, int num_dof);
 
-  /// As a multiple of the one that was given; 1 of no errors. At least 0.05, for no corner is found better
-  /// than to 0.2 px; at most 1, for what is above is no noise: then most are outliers.
-  double Estimate();
+  /// As a multiple of the one that was given; 1 of no errors. At most 1, for what is above is no noise: then
+  /// most are outliers. At least `least`: a gate does not profit from corners found better than to 0.2 px.
+  double Estimate(double least = 0.05);
 
  private:
   std::vector<double> ratios_;  // to the median of a chi-square of as many degrees of freedom

@@ -78,6 +78,8 @@ Rows TrackingRows(TrackingOptions* tracking, KeyFramePolicyOptions* keyframes) {
        "map points; with fewer the camera is lost"},
       {"Tracking.minRelocalizedInliers", &tracking->min_relocalized_inliers, kOptional, kSome,
        "the same when it was lost before"},
+      {"Tracking.maxSpeed", &tracking->max_speed_mps, kOptional, kPositive,
+       "m/s, of the camera; a pose that is farther from the last one is wrong"},
       {"Tracking.maxLocalKeyFrames", &tracking->max_local_keyframes, kOptional, kSome,
        "whose points are looked for in a frame"},
       {"Tracking.revisionDelay",

@@ -38,7 +38,7 @@ void AddDepthPoints(const Sensor& sensor, int min_count, KeyFrameId keyframe, Fr
   const Rigid3d world_from_camera = Inverse(frame->camera_from_world);
   const double close_limit_m = sensor.depth.CloseLimitM(sensor.camera.fx);
   for (const int i : KeypointsWithinReach(features, close_limit_m, min_count)) {
-    if (frame->points[i].IsValid()) continue;
+    if (frame->points[i].IsValid() || features.depths_m[i] < frame->moving_below_m) continue;
     const cv::Point2f& pixel = features.pixels[i];
     const Eigen::Vector3d x_camera = sensor.camera.Unproject(pixel.x, pixel.y, features.depths_m[i]);
     const MapPointId id = map->AddMapPoint(world_from_camera * x_camera, keyframe);

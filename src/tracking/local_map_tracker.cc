@@ -20,11 +20,23 @@ LocalMapTracker::Result LocalMapTracker::Track(const MovingRegion& moving, Frame
     CollectCandidates(*guard, *frame, keyframes, moving, &result);
   }
   MatchCandidates(frame, counter);
+  const std::vector<MapPointId> matched = frame->points;
   result.num_inliers = RefinePose(map_, sensor_, frame);
+  if (frame->moving_below_m > 0) CollectContradicted(*map_.Read(), matched, *frame, &result);
   for (const MapPointId id : frame->points) {
     if (id.IsValid()) counter->CountFound(id);
   }
   return result;
+}
+
+void LocalMapTracker::CollectContradicted(const MapData& map, const std::vector<MapPointId>& matched,
+                                          const Frame& frame, Result* result) {
+  for (size_t i = 0; i < matched.size(); ++i) {
+    const MapPoint* point = map.Find(map.Resolve(matched[i]));
+    if (point == nullptr || frame.points[i].IsValid()) continue;
+    if ((frame.camera_from_world * point->position_world).z() < frame.moving_below_m)
+      result->near_moving.push_back(point->id);
+  }
 }
 
 std::vector<KeyFrameId> LocalMapTracker::LocalKeyFrames(const MapData& map, const Frame& frame) const {

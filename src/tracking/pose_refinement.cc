@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/tracking/pose_refinement.h"
 
+#include <utility>
+
 #include "orbslam/optimization/absolute_pose.h"
+#include "orbslam/optimization/far_pose.h"
 
 namespace orbslam {
 namespace {
@@ -34,7 +37,11 @@ FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* 
 
 int RefinePose(const Map& map, const Sensor& sensor, Frame* frame) {
   const auto [problem, keypoints] = GatherPoseProblem(map, sensor, frame);
-  const PoseResult result = OptimizePose(problem);
+  PoseResult result = OptimizePose(problem);
+  if (auto far = FindContradictingFarPose(problem, result)) {
+    result = std::move(far->pose);
+    frame->moving_below_m = far->split_m;
+  }
   frame->camera_from_world = result.camera_from_world;
   frame->pose_information = result.information;
   ForgetOutliers(result, keypoints, frame);

@@ -174,9 +174,18 @@ bool Tracking::RefineOnLocalMap(Frame* frame, FrameReport* report) {
   const bool is_lost = state_ == TrackingState::kLost;
   if (result.num_inliers < (is_lost ? options_.min_relocalized_inliers : options_.min_local_inliers))
     return false;
+  if (Leaps(*frame)) return false;
   reference_ = result.reference;
   if (makes_keyframes_) JudgePoints(result, *frame);
   return true;
+}
+
+/// What looks alike in two places, or is carried about, gives poses that no camera gets to.
+bool Tracking::Leaps(const Frame& frame) const {
+  if (!last_) return false;
+  const double elapsed_s = std::max(1 / sensor_.frame_rate_hz, frame.timestamp_s - last_->timestamp_s);
+  const Rigid3d step = last_->camera_from_world * Inverse(frame.camera_from_world);
+  return step.translation.norm() > options_.max_speed_mps * elapsed_s;
 }
 
 /// What is seen to move now may have done so for a while, unseen, and have bent poses and map.

@@ -44,6 +44,9 @@ TEST(NoiseVariance, IsNeitherMoreThanWasSaidNorNothing) {
   EXPECT_EQ(Estimate(1000, 0.3, 0.9, 2), 1);
   EXPECT_EQ(Estimate(1000, 2, 0, 3), 1);
   EXPECT_GT(Estimate(1000, 0, 0, 2), 0);
+  NoiseVariance exact;
+  exact.Add(0, 2);
+  EXPECT_EQ(exact.Estimate(0.02), 0.02);
   EXPECT_EQ(Estimate(0, 0, 0, 2), 1);
   NoiseVariance behind_the_camera;
   behind_the_camera.Add(std::numeric_limits<double>::infinity(), 2);

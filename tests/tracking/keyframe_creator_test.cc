@@ -71,6 +71,14 @@ TEST_F(KeyFrameCreator, KeypointsWithoutDepthGetNoPoint) {
   for (int i = 0; i < features.size(); ++i) EXPECT_EQ(frame.points[i].IsValid(), features.HasDepth(i));
 }
 
+TEST_F(KeyFrameCreator, MakesNoPointOfWhatMoves) {
+  Frame frame = SeeAndKnow(Rigid3d());
+  frame.moving_below_m = 2;
+  AddKeyFrame(&frame);
+  const FrameFeatures& features = *frame.features;
+  for (int i = 0; i < features.size(); ++i) EXPECT_EQ(frame.points[i].IsValid(), features.depths_m[i] >= 2);
+}
+
 TEST_F(KeyFrameCreator, SecondKeyFrameObservesKnownPointsAndMakesOnlyTheMissing) {
   Frame first = SeeAndKnow(Rigid3d());
   const KeyFrameId root = AddKeyFrame(&first);

@@ -38,6 +38,17 @@ class LocalMapTrackerTest : public SyntheticMap {
     }));
   }
 
+  /// As if what is nearer than that had moved a little since it was mapped. Returns its points, ascending.
+  std::vector<MapPointId> MoveWhatIsNear(double limit_m) {
+    std::vector<MapPointId> moved;
+    const auto map = map_.Write();
+    for (const MapPoint& point : map->MapPoints()) {
+      if ((truth_ * point.position_world).z() < limit_m) moved.push_back(point.id);
+    }
+    for (const MapPointId id : moved) map->Find(id)->position_world += Eigen::Vector3d(0.015, 0, 0);
+    return moved;
+  }
+
   KeyFrameId left_, right_;
   const Rigid3d truth_ = RandomMotion(&rng_, 0.05, 0.05);
   const TrackingOptions options_;
@@ -85,6 +96,25 @@ TEST_F(LocalMapTrackerTest, NoPointIsFoundAtTwoKeypoints) {
   tracker_.Track(nothing_moves_, &frame, &counter_);
   std::set<MapPointId> found;
   for (const MapPointId id : frame.points) EXPECT_TRUE(!id.IsValid() || found.insert(id).second);
+}
+
+TEST_F(LocalMapTrackerTest, WhatFarPointsDenyIsNotMatchedButNamed) {
+  const std::vector<MapPointId> moved = MoveWhatIsNear(2);
+  Frame frame = FrameWithFirstPoints(left_);
+  const LocalMapTracker::Result result = tracker_.Track(nothing_moves_, &frame, &counter_);
+  EXPECT_GT(frame.moving_below_m, 1);
+  EXPECT_THAT(frame.camera_from_world, Rigid3dNear(truth_, 0.002, kMaxErrorRad));
+  EXPECT_GT(result.near_moving.size(), 50u);
+  const auto has_moved = [&](MapPointId id) { return std::ranges::binary_search(moved, id); };
+  EXPECT_GT(std::ranges::count_if(result.near_moving, has_moved),
+            0.8 * static_cast<double>(result.near_moving.size()));
+  EXPECT_LT(std::ranges::count_if(frame.points, has_moved), 0.1 * static_cast<double>(moved.size()));
+}
+
+TEST_F(LocalMapTrackerTest, NothingIsNamedWhereAllRests) {
+  Frame frame = FrameWithFirstPoints(left_);
+  EXPECT_TRUE(tracker_.Track(nothing_moves_, &frame, &counter_).near_moving.empty());
+  EXPECT_EQ(frame.moving_below_m, 0);
 }
 
 TEST_F(LocalMapTrackerTest, FrameWithoutPointsHasNoReference) {

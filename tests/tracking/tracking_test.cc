@@ -142,6 +142,23 @@ TEST_F(TrackingTest, IsLostInTheDarkAndRecovers) {
   ExpectSound();
 }
 
+TEST_F(TrackingTest, APlaceIsBelievedOnceTheCameraCanHaveGotThere) {
+  constexpr double kMaxSpeedMps = 2;
+  Tracking tracking(sensor_, orb_, {.max_speed_mps = kMaxSpeedMps}, KeyFramePolicyOptions(), nullptr, &map_);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(Show(i, &tracking).state, TrackingState::kOk) << i;
+  Show(&tracking, cv::Mat::zeros(480, 640, CV_8UC1), cv::Mat::zeros(480, 640, CV_32FC1));
+  const double needed_s = (Truth(99).translation - Truth(0).translation).norm() / kMaxSpeedMps;
+  double elapsed_s = 0;
+  FrameReport report;
+  do {
+    report = Show(0, &tracking);
+    elapsed_s = (num_shown_ - 100) / SyntheticSequence::kFramesPerSecond;
+  } while (report.state != TrackingState::kOk && elapsed_s < 3);
+  EXPECT_GT(needed_s, 0.2) << "the camera hardly moved";
+  EXPECT_NEAR(elapsed_s, needed_s, 0.05);
+  EXPECT_LT(ErrorM(report, 0), kMaxErrorM);
+}
+
 TEST_F(TrackingTest, ACorrectionOfTheMapChangesNothingButTheFrameOfReference) {
   Rng rng(4);
   for (int i = 0; i < 12; ++i) Show(i);

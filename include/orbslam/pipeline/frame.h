@@ -16,8 +16,9 @@ struct Frame {
   double timestamp_s = 0;
   std::shared_ptr<const FrameFeatures> features;
   Rigid3d camera_from_world;
-  std::vector<MapPointId> points;  // one a keypoint; invalid: none
+  std::vector<MapPointId> points;                // one a keypoint; invalid: none
   Matrix6d pose_information = Matrix6d::Zero();  // UncertainPose's
+  double moving_below_m = 0;  // what is nearer moves, for it contradicts what is far (FarPose); 0: nothing
 
   int NumPoints() const;
 };

@@ -25,7 +25,7 @@ class LocalMapTracker {
     KeyFrameId reference;  // the keyframe that shares most points with the frame; invalid: none does
     // Local points, by the frame's first pose:
     std::vector<MapPointId> on_moving;     // a moving object shows them
-    std::vector<MapPointId> near_moving;   // those, and others that it may have shown a moment ago
+    std::vector<MapPointId> near_moving;   // those, what it may have shown a moment ago, or far points deny
     std::vector<MapPointId> seen_through;  // the frame sees what is behind them
   };
   /// frame must have a first pose and first points. Counts what was visible and what was found; what moving
@@ -36,6 +36,9 @@ class LocalMapTracker {
   std::vector<KeyFrameId> LocalKeyFrames(const MapData& map, const Frame& frame) const;
   void CollectCandidates(const MapData& map, const Frame& frame, const std::vector<KeyFrameId>& keyframes,
                          const MovingRegion& moving, Result* result);
+  /// What was matched until what is far contradicted it (Frame::moving_below_m) joins near_moving.
+  static void CollectContradicted(const MapData& map, const std::vector<MapPointId>& matched,
+                                  const Frame& frame, Result* result);
   void MatchCandidates(Frame* frame, PointCounter* counter);
 
   const Map& map_;

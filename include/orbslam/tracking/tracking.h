@@ -56,6 +56,7 @@ class Tracking {
   bool FindFirstPose(Frame* frame);
   bool TakeBetterPose(Frame* frame);
   bool RefineOnLocalMap(Frame* frame, FrameReport* report);
+  bool Leaps(const Frame& frame) const;
   void JudgePoints(const LocalMapTracker::Result& found, const Frame& frame);
   void FollowMapCorrections();
   bool WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLoad& mapper) const;

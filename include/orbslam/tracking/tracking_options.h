@@ -13,6 +13,7 @@ struct TrackingOptions {
   int min_inliers = 10;          // map points after the first pose
   int min_local_inliers = 20;    // map points after the local map: below, the frame is lost. ORB-SLAM2: 30
   int min_relocalized_inliers = 30;    // the same when the camera was lost. ORB-SLAM2: 50
+  double max_speed_mps = 10;           // of the camera: a pose that is farther off than that is a wrong one
   int max_local_keyframes = 40;        // ORB-SLAM2: 80
   int local_neighbors = 10;            // best covisibles taken in with each local keyframe
   double local_radius_px = 2.5;        // search window of local points seen head-on, px of their level ...
