@@ -20,20 +20,26 @@ struct Patch {
   float inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  // of the summed structure tensor
 };
 
-/// Bilinear sample of a rectangle of w x h pixels whose first is at (x, y); false: not inside.
+/// Bilinear samples of a rectangle of w x h pixels: here between columns, At(k) also between rows.
 template <int w, int h>
-bool Sample(const cv::Mat1f& image, float x, float y, float* out) {
-  const int x0 = cvFloor(x), y0 = cvFloor(y);
-  if (x0 < 0 || y0 < 0 || x0 + w + 1 > image.cols || y0 + h + 1 > image.rows) return false;
-  const float ax = x - static_cast<float>(x0), ay = y - static_cast<float>(y0);
-  float between[(h + 1) * w];  // columns
-  for (int j = 0; j <= h; ++j) {
-    const float* row = image[std::min(y0 + j, image.rows - 1)] + x0;
-    for (int i = 0; i < w; ++i) between[j * w + i] = row[i] + ax * (row[i + 1] - row[i]);
+struct Samples {
+  float between[(h + 1) * w];
+  float ay = 0;
+
+  /// The first is at (x, y); false: not inside.
+  bool Take(const cv::Mat1f& image, float x, float y) {
+    const int x0 = cvFloor(x), y0 = cvFloor(y);
+    if (x0 < 0 || y0 < 0 || x0 + w + 1 > image.cols || y0 + h + 1 > image.rows) return false;
+    const float ax = x - static_cast<float>(x0);
+    ay = y - static_cast<float>(y0);
+    for (int j = 0; j <= h; ++j) {
+      const float* row = image[std::min(y0 + j, image.rows - 1)] + x0;
+      for (int i = 0; i < w; ++i) between[j * w + i] = row[i] + ax * (row[i + 1] - row[i]);
+    }
+    return true;
   }
-  for (int k = 0; k < h * w; ++k) out[k] = between[k] + ay * (between[k + w] - between[k]);
-  return true;
-}
+  float At(int k) const { return between[k] + ay * (between[k + w] - between[k]); }
+};
 
 /// The same of a square whose rows and columns lie along the columns of a matrix, about its centre.
 template <int size>
@@ -59,14 +65,16 @@ bool SampleTurned(const cv::Mat1f& image, cv::Point2f centre, const cv::Matx22f&
   return true;
 }
 
-/// Sum of term(pixel) over a patch, in a lane a column: the compiler may add lanes side by side, but may not
-/// change the order of additions by itself.
+/// Sum of term(pixel) over a patch, in as many lanes as a wide vector has: the compiler may add lanes side by
+/// side, but may not change the order of additions by itself.
 template <class Term>
 float SumOverPatch(const Term& term) {
-  float lanes[kSize] = {};
-  for (int j = 0; j < kPixels; j += kSize)
-    for (int i = 0; i < kSize; ++i) lanes[i] += term(j + i);
-  return std::accumulate(lanes, lanes + kSize, 0.0f);
+  constexpr int kLanes = 8;
+  static_assert(kPixels % kLanes == 0);
+  float lanes[kLanes] = {};
+  for (int j = 0; j < kPixels; j += kLanes)
+    for (int i = 0; i < kLanes; ++i) lanes[i] += term(j + i);
+  return std::accumulate(lanes, lanes + kLanes, 0.0f);
 }
 
 float Dot(const float (&a)[kPixels], const float (&b)[kPixels]) {
@@ -78,9 +86,13 @@ bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, const std::optional<c
                float min_texture, Patch* patch) {
   constexpr int kWide = kSize + 2;
   float wide[kWide * kWide];
-  if (axes ? !SampleTurned<kWide>(image, centre, *axes, wide)
-           : !Sample<kWide, kWide>(image, centre.x - kHalf - 1, centre.y - kHalf - 1, wide))
-    return false;
+  if (axes) {
+    if (!SampleTurned<kWide>(image, centre, *axes, wide)) return false;
+  } else {
+    Samples<kWide, kWide> samples;
+    if (!samples.Take(image, centre.x - kHalf - 1, centre.y - kHalf - 1)) return false;
+    for (int k = 0; k < kWide * kWide; ++k) wide[k] = samples.At(k);
+  }
   for (int j = 0; j < kSize; ++j) {
     const float* row = wide + (j + 1) * kWide + 1;
     for (int i = 0; i < kSize; ++i) {
@@ -103,10 +115,11 @@ bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, const std::optional<c
 /// Gauss-Newton on the position of a patch in an image; false: left the image.
 bool Refine(const Patch& patch, const cv::Mat1f& image, int max_iterations, float min_step_px,
             cv::Point2f* position) {
-  float now[kPixels], error[kPixels];
+  Samples<kSize, kSize> now;
+  float error[kPixels];
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    if (!Sample<kSize, kSize>(image, position->x - kHalf, position->y - kHalf, now)) return false;
-    for (int k = 0; k < kPixels; ++k) error[k] = patch.value[k] - now[k];
+    if (!now.Take(image, position->x - kHalf, position->y - kHalf)) return false;
+    for (int k = 0; k < kPixels; ++k) error[k] = patch.value[k] - now.At(k);
     const float bx = Dot(error, patch.slope_x), by = Dot(error, patch.slope_y);
     const float dx = patch.inverse_xx * bx + patch.inverse_xy * by;
     const float dy = patch.inverse_xy * bx + patch.inverse_yy * by;
@@ -118,9 +131,9 @@ bool Refine(const Patch& patch, const cv::Mat1f& image, int max_iterations, floa
 
 /// Mean absolute difference of a patch and the image there; empty: outside.
 std::optional<float> DifferenceGrey(const Patch& patch, const cv::Mat1f& image, cv::Point2f position) {
-  float now[kPixels];
-  if (!Sample<kSize, kSize>(image, position.x - kHalf, position.y - kHalf, now)) return {};
-  return SumOverPatch([&](int k) { return std::abs(patch.value[k] - now[k]); }) / kPixels;
+  Samples<kSize, kSize> now;
+  if (!now.Take(image, position.x - kHalf, position.y - kHalf)) return {};
+  return SumOverPatch([&](int k) { return std::abs(patch.value[k] - now.At(k)); }) / kPixels;
 }
 
 FlowResult TrackPatch(const std::vector<cv::Mat1f>& first, const std::vector<cv::Mat1f>& second,
