@@ -145,9 +145,14 @@ Rows LoopRows(bool* closes_loops, LoopOptions* loops) {
   };
 }
 
-Rows DetectorRows(bool* detects_motion, DynamicDetectorOptions* options) {
+Rows DetectorRows(bool* detects_motion, bool* doubts_near_points, DynamicDetectorOptions* options) {
   return {
       {"DynamicDetector.enabled", detects_motion, kOptional, {}, "look for moving objects"},
+      {"DynamicDetector.useFarPoints",
+       doubts_near_points,
+       kOptional,
+       {},
+       "far map points contradict near ones; full mode"},
       {"DynamicDetector.mode",
        ConfigEnum(&options->mode),
        kOptional,
@@ -287,7 +292,7 @@ std::vector<ConfigRow> DescribeSettings(Settings* settings) {
   add(MotionRows(&settings->motion));
   add(LoopRows(&settings->closes_loops, &settings->loops));
   DynamicDetectorOptions& detector = settings->detector;
-  add(DetectorRows(&settings->detects_motion, &detector));
+  add(DetectorRows(&settings->detects_motion, &settings->doubts_near_points, &detector));
   add(EvidenceRows(&detector.fusion));
   add(SurfaceRows(&detector));
   add(GrowthRows(&detector.growth));

@@ -20,10 +20,19 @@ std::string Numbered(const std::string& path, int number) {
       .string();
 }
 
+/// The published method drops what a mask shows, and where nothing is said to move, all is trusted.
+Settings WithDoubts(Settings settings, const SystemOptions& options) {
+  const bool detects = options.use_detector && settings.detects_motion;
+  const bool as_published = detects && settings.detector.mode == DetectorMode::kPaper;
+  settings.tracking.doubt_near_points =
+      settings.doubts_near_points && !as_published && (detects || options.user_mask);
+  return settings;
+}
+
 }  // namespace
 
 System::System(const Settings& settings, SystemOptions options)
-    : settings_(settings),
+    : settings_(WithDoubts(settings, options)),
       options_(std::move(options)),
       sensor_(settings.camera, settings.depth, settings.orb, settings.fps) {
   StartMasks();

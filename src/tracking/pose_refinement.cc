@@ -35,12 +35,14 @@ FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* 
   return gathered;
 }
 
-int RefinePose(const Map& map, const Sensor& sensor, Frame* frame) {
+int RefinePose(const Map& map, const Sensor& sensor, NearPoints near, Frame* frame) {
   const auto [problem, keypoints] = GatherPoseProblem(map, sensor, frame);
   PoseResult result = OptimizePose(problem);
-  if (auto far = FindContradictingFarPose(problem, result)) {
-    result = std::move(far->pose);
-    frame->moving_below_m = far->split_m;
+  if (near == NearPoints::kDoubted) {
+    if (auto far = FindContradictingFarPose(problem, result)) {
+      result = std::move(far->pose);
+      frame->moving_below_m = far->split_m;
+    }
   }
   frame->camera_from_world = result.camera_from_world;
   frame->pose_information = result.information;
@@ -55,7 +57,7 @@ int EstimatePose(const Map& map, const Sensor& sensor, Frame* frame) {
   if (!estimate) return 0;
   frame->camera_from_world = estimate->camera_from_world;
   ForgetOutliers(*estimate, keypoints, frame);
-  return RefinePose(map, sensor, frame);
+  return RefinePose(map, sensor, NearPoints::kTrusted, frame);
 }
 
 }  // namespace orbslam

@@ -120,7 +120,7 @@ int Relocalizer::SearchAgain(KeyFrameId id, double radius_px, Frame* frame) cons
   for (size_t q = 0; q < match.size(); ++q) {
     if (match[q] >= 0) frame->points[match[q]] = wanted.points[q];
   }
-  return RefinePose(map_, sensor_, frame);
+  return RefinePose(map_, sensor_, NearPoints::kTrusted, frame);
 }
 
 }  // namespace orbslam

@@ -127,7 +127,7 @@ void Tracking::UpdateMotion(const MovingView& view, Frame* frame, FrameReport* r
   if (view.IsOfOneInstant(sensor_)) return;
   const auto measure = timer_.Measure("motion_within_frame");
   frame->features = AtOneInstant(view, sensor_, motion_);
-  report->num_matches = RefinePose(*map_, sensor_, frame);
+  report->num_matches = RefinePose(*map_, sensor_, NearPointsOf(options_), frame);
   update();
 }
 

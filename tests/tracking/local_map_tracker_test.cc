@@ -51,7 +51,7 @@ class LocalMapTrackerTest : public SyntheticMap {
 
   KeyFrameId left_, right_;
   const Rigid3d truth_ = RandomMotion(&rng_, 0.05, 0.05);
-  const TrackingOptions options_;
+  const TrackingOptions options_{.doubt_near_points = true};
   LocalMapTracker tracker_{map_, sensor_, options_};
   const MovingRegion nothing_moves_{sensor_, {}, {}};
   PointCounter counter_;
@@ -109,6 +109,15 @@ TEST_F(LocalMapTrackerTest, WhatFarPointsDenyIsNotMatchedButNamed) {
   EXPECT_GT(std::ranges::count_if(result.near_moving, has_moved),
             0.8 * static_cast<double>(result.near_moving.size()));
   EXPECT_LT(std::ranges::count_if(frame.points, has_moved), 0.1 * static_cast<double>(moved.size()));
+}
+
+TEST_F(LocalMapTrackerTest, WhatIsNearIsTrustedWhereNothingIsSaidToMove) {
+  MoveWhatIsNear(2);
+  const TrackingOptions trusting;
+  LocalMapTracker tracker(map_, sensor_, trusting);
+  Frame frame = FrameWithFirstPoints(left_);
+  EXPECT_TRUE(tracker.Track(nothing_moves_, &frame, &counter_).near_moving.empty());
+  EXPECT_EQ(frame.moving_below_m, 0);
 }
 
 TEST_F(LocalMapTrackerTest, NothingIsNamedWhereAllRests) {

@@ -32,7 +32,9 @@ struct Settings {
   LoopOptions loops;
   bool detects_motion = true;
   DynamicDetectorOptions detector;
-  int user_mask_margin_px = 8;  // Masks.margin: by which masks of others are widened
+  bool doubts_near_points = true;  // DynamicDetector.useFarPoints: TrackingOptions::doubt_near_points where
+                                   // moving objects are looked for
+  int user_mask_margin_px = 8;     // Masks.margin: by which masks of others are widened
 
   Settings() { camera.width = 640, camera.height = 480; }
 };

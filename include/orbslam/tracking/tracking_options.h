@@ -25,10 +25,12 @@ struct TrackingOptions {
                                     // margin for keypoints that are no map points
   double doubtful_share = 0.5;      // of the image, masked: most of what is seen then moves, and may ...
   double max_doubt_s = 1;           // ... still be there so long after, unseen by the detector
-  double max_unseen_s = 1;      // who sets off is known after so long; what was seen of him until then goes
-  double min_view_cos = 0.5;    // 60 degrees from a point's mean viewing direction
-  double revision_delay_s = 3;  // after which a frame's pose is looked for again; 0: never. Who set off is
-                                // known after one second, the last adjustment done after two
+  double max_unseen_s = 1;  // who sets off is known after so long; what was seen of him until then goes
+  bool doubt_near_points = false;  // leave out what is near and contradicts what is far (FarPose); for scenes
+                                   // in which things move
+  double min_view_cos = 0.5;       // 60 degrees from a point's mean viewing direction
+  double revision_delay_s = 3;     // after which a frame's pose is looked for again; 0: never. Who set off is
+                                   // known after one second, the last adjustment done after two
 };
 
 /// When a frame becomes a keyframe (ORB-SLAM2, section III-E).
