@@ -5,6 +5,12 @@
 #include "settings_table.h"
 
 namespace orbslam {
+bool DoubtsNearPoints(const Settings& settings, bool use_detector, bool has_user_mask) {
+  const bool detects = use_detector && settings.detects_motion;
+  if (detects && settings.detector.mode == DetectorMode::kPaper) return false;
+  return settings.doubts_near_points && (detects || has_user_mask);
+}
+
 Result<Settings> ReadSettings(const std::string& path, std::vector<std::string>* warnings) {
   Result<ConfigReader> opened = ConfigReader::Open(path);
   if (!opened) return opened.error();

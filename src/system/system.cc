@@ -20,12 +20,9 @@ std::string Numbered(const std::string& path, int number) {
       .string();
 }
 
-/// The published method drops what a mask shows, and where nothing is said to move, all is trusted.
 Settings WithDoubts(Settings settings, const SystemOptions& options) {
-  const bool detects = options.use_detector && settings.detects_motion;
-  const bool as_published = detects && settings.detector.mode == DetectorMode::kPaper;
   settings.tracking.doubt_near_points =
-      settings.doubts_near_points && !as_published && (detects || options.user_mask);
+      DoubtsNearPoints(settings, options.use_detector, options.user_mask != nullptr);
   return settings;
 }
 

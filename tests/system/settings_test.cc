@@ -170,5 +170,21 @@ TEST(Settings, KeysOfOthersAreAcceptedAndSlipsOfThePenSuggested) {
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("unknown key Camera.fsp is ignored; is Camera.fps meant?")));
 }
 
+TEST(Settings, NearPointsAreDoubtedWhereSomethingIsMeantToMove) {
+  Settings settings;
+  EXPECT_TRUE(DoubtsNearPoints(settings, true, false));
+  EXPECT_TRUE(DoubtsNearPoints(settings, false, true));
+  EXPECT_FALSE(DoubtsNearPoints(settings, false, false)) << "as ORB-SLAM2";
+  settings.detects_motion = false;
+  EXPECT_FALSE(DoubtsNearPoints(settings, true, false));
+  EXPECT_TRUE(DoubtsNearPoints(settings, true, true));
+  settings.detects_motion = true;
+  settings.detector.mode = DetectorMode::kPaper;
+  EXPECT_FALSE(DoubtsNearPoints(settings, true, true)) << "as published";
+  settings.detector.mode = DetectorMode::kFull;
+  settings.doubts_near_points = false;
+  EXPECT_FALSE(DoubtsNearPoints(settings, true, true));
+}
+
 }  // namespace
 }  // namespace orbslam

@@ -32,12 +32,15 @@ struct Settings {
   LoopOptions loops;
   bool detects_motion = true;
   DynamicDetectorOptions detector;
-  bool doubts_near_points = true;  // DynamicDetector.useFarPoints: TrackingOptions::doubt_near_points where
-                                   // moving objects are looked for
+  bool doubts_near_points = true;  // DynamicDetector.useFarPoints; see DoubtsNearPoints
   int user_mask_margin_px = 8;     // Masks.margin: by which masks of others are widened
 
   Settings() { camera.width = 640, camera.height = 480; }
 };
+
+/// Whether what is near may be contradicted by what is far (TrackingOptions::doubt_near_points): where
+/// something is meant to move, because it is looked for or others say so, but not by the published method.
+bool DoubtsNearPoints(const Settings& settings, bool use_detector, bool has_user_mask);
 
 /// Reads and checks a settings file. warnings, if not null, gets a line for each unknown key. Error: whatever
 /// is missing, of the wrong kind or out of range, a line each with file, line and key; or why the file cannot
