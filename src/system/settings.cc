@@ -5,6 +5,7 @@
 #include "settings_table.h"
 
 namespace orbslam {
+
 bool DoubtsNearPoints(const Settings& settings, bool use_detector, bool has_user_mask) {
   const bool detects = use_detector && settings.detects_motion;
   if (detects && settings.detector.mode == DetectorMode::kPaper) return false;
