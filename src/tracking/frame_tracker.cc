@@ -62,7 +62,7 @@ int FrameTracker::TrackLastFrame(const Frame& last, Frame* frame) const {
         ProjectLastFrame(map_, sensor_, last, *frame, widening * options_.motion_radius_px);
     const std::vector<int> match = SearchByProjection(projected.queries, *frame->features, {}, search);
     if (std::ranges::count_if(match, [](int m) { return m >= 0; }) < options_.min_motion_matches) continue;
-    std::ranges::fill(frame->points, MapPointId());
+    frame->ForgetPoints();
     for (size_t q = 0; q < match.size(); ++q) {
       if (match[q] >= 0) frame->points[match[q]] = projected.points[q];
     }
@@ -89,7 +89,7 @@ int FrameTracker::TrackKeyFrame(KeyFrameId keyframe_id, Frame* frame) const {
   std::iota(all.begin(), all.end(), 0);
   const std::vector<int> match = SearchByDescriptor(*features, with_point, *frame->features, all,
                                                     {.max_ratio = options_.max_ratio_reference});
-  std::ranges::fill(frame->points, MapPointId());
+  frame->ForgetPoints();
   for (size_t q = 0; q < match.size(); ++q) {
     if (match[q] >= 0) frame->points[match[q]] = points[with_point[q]];
   }

@@ -37,7 +37,7 @@ std::vector<int> AllOf(const std::vector<char>& flags) {
 void MatchByAppearance(const KeyFrameCopy& keyframe, const PlaceIndex::Words* keyframe_words,
                        const PlaceIndex::Words* words, double max_ratio, Frame* frame) {
   const DescriptorSearchOptions search{.max_ratio = max_ratio};
-  std::ranges::fill(frame->points, MapPointId());
+  frame->ForgetPoints();
   if (words != nullptr && keyframe_words != nullptr) {
     const std::vector<int> match =
         SearchByWords(*keyframe.features, keyframe_words->direct_index, keyframe.has_point, *frame->features,
@@ -62,7 +62,7 @@ bool Relocalizer::Relocalize(Frame* frame) {
   for (const KeyFrameId candidate : Candidates(words.get())) {
     if (TryKeyFrame(candidate, words.get(), frame)) return true;
   }
-  std::ranges::fill(frame->points, MapPointId());
+  frame->ForgetPoints();
   return false;
 }
 

@@ -103,8 +103,7 @@ void Tracking::Track(const RgbdImage& image, const MapperLoad& mapper, Frame* fr
   frame->features = AtOneInstant(view, sensor_, motion_);
   bool is_found = Locate(frame, report);
   if (map_->Read()->epoch() != epoch_) {  // the map moved under us: what was found mixes old and new
-    std::ranges::fill(frame->points, MapPointId());
-    frame->moving_below_m = 0;
+    frame->ForgetPoints();
     is_found = Locate(frame, report);
   }
   const bool was_tracking = state_ == TrackingState::kOk;
@@ -159,7 +158,6 @@ bool Tracking::FindFirstPose(Frame* frame) {
 /// The prediction was poor, or there was none: the reference keyframe may know better.
 bool Tracking::TakeBetterPose(Frame* frame) {
   Frame other = *frame;
-  other.moving_below_m = 0;
   int num_inliers = frame_tracker_.TrackKeyFrame(reference_, &other);
   if (num_inliers >= options_.min_inliers && state_ == TrackingState::kOk) {
     num_inliers = std::max(num_inliers, frame_tracker_.TrackLastFrame(*last_, &other));

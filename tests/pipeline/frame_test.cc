@@ -19,6 +19,15 @@ TEST(Frame, CountsKeypointsWithAPoint) {
   EXPECT_EQ(frame.NumPoints(), 2);
 }
 
+TEST(Frame, WithItsPointsItForgetsWhatTheySaid) {
+  Frame frame;
+  frame.points = {MapPointId(4), MapPointId(), MapPointId(2)};
+  frame.moving_below_m = 2;
+  frame.ForgetPoints();
+  EXPECT_EQ(frame.points, std::vector<MapPointId>(3));
+  EXPECT_EQ(frame.moving_below_m, 0);
+}
+
 TEST(TrackingState, EveryStateHasANameOfItsOwn) {
   const std::set<std::string> names = {Name(TrackingState::kNotInitialized), Name(TrackingState::kOk),
                                        Name(TrackingState::kLost)};

@@ -61,6 +61,16 @@ TEST_F(FrameTrackerTest, KeyFrameIsFoundFromAnyPriorNearby) {
   }
 }
 
+TEST_F(FrameTrackerTest, WhatAPoseSaidOfNearPointsGoesWithIt) {
+  Frame frame = NextFrame(0.002, 0.002);
+  frame.moving_below_m = 2;
+  Frame again = frame;
+  ExpectTracked(tracker_.TrackLastFrame(last_, &frame), frame);
+  EXPECT_EQ(frame.moving_below_m, 0);
+  ExpectTracked(tracker_.TrackKeyFrame(keyframe_, &again), again);
+  EXPECT_EQ(again.moving_below_m, 0);
+}
+
 TEST_F(FrameTrackerTest, FollowsPointsThatWereFusedMeanwhile) {
   std::vector<MapPointId> fused(last_.points.begin(), last_.points.begin() + 100);
   {

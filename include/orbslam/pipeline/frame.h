@@ -21,6 +21,8 @@ struct Frame {
   double moving_below_m = 0;  // what is nearer moves, for it contradicts what is far (FarPose); 0: nothing
 
   int NumPoints() const;
+  /// So that they can be looked for anew; what a pose over them said is forgotten too.
+  void ForgetPoints();
 };
 
 }  // namespace orbslam
