@@ -136,7 +136,7 @@ std::vector<double> BundleSolver::Chi2() const {
   chi2.reserve(input_.observations.size());
   for (const BundleObservation& o : input_.observations) {
     const Eigen::Vector3d x = poses[o.pose] * points_[o.point];
-    chi2.push_back(x.z() >= kMinDepthM
+    chi2.push_back(x.z() >= NearestUsableM(o.pixel)
                        ? o.inverse_variance * input_.intrinsics.ReprojectionError(x, o.pixel).squaredNorm()
                        : std::numeric_limits<double>::infinity());
   }

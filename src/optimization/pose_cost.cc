@@ -10,7 +10,6 @@
 namespace orbslam {
 namespace {
 
-constexpr double kMinDepthM = 1e-3;
 // What an active observation costs while it is behind the camera: more than any that a step would trade for
 // it.
 constexpr double kBehindLoss = 1e3;
@@ -65,7 +64,7 @@ inline PoseCost::Projected PoseCost::Project(const Observation& o, const State& 
     p.rotated = state.rotation * o.point;
     p.x = p.rotated + state.translation;
   }
-  p.is_in_front = p.x.z() > kMinDepthM;
+  p.is_in_front = p.x.z() > NearestUsableM(o.pixel);
   p.inverse_depth = 1.0 / p.x.z();
   p.residual = intrinsics_.ReprojectionError(p.x, o.pixel);
   p.chi2 = p.residual.dot(o.information.cwiseProduct(p.residual));

@@ -11,12 +11,10 @@
 
 namespace orbslam {
 
-/// Nearer to the camera's plane than this, or behind it, nothing is seen.
-constexpr double kMinDepthM = 1e-3;
-
 /// Reprojection error (u, v, disparity) over its standard deviation; the third is 0 for a keypoint without
 /// depth. Parameters: rotation (quaternion x y z w) and translation of camera_from_world, the point in the
-/// world. Behind the camera the error is a constant, so that no step gains by moving a point there.
+/// world. Behind the camera and too near (NearestUsableM) the error is a constant, so that no step gains by
+/// moving a point there.
 ///
 /// Everything is 3 wide for speed: Ceres' Schur elimination is compiled for blocks of 3 x 3, while a mixture
 /// of 2 and 3 rows or pose blocks of 6 falls back to loops of run-time size, which take twice as long.
@@ -36,7 +34,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 4, 3, 3> {
     const QuaternionRotation rotation(parameters[0]);
     const Eigen::Map<const Eigen::Vector3d> translation(parameters[1]), point(parameters[2]);
     const Eigen::Vector3d x = rotation.matrix * point + translation;
-    if (!is_active_ || x.z() < kMinDepthM) {
+    if (!is_active_ || x.z() < NearestUsableM(pixel_)) {
       SetFlat(is_active_ ? kErrorBehind : 0.0, residuals, jacobians);
       return true;
     }

@@ -27,10 +27,10 @@ std::optional<PointView> PredictView(const MapPoint& point, const Rigid3d& camer
 
 bool IsWithinGate(const Sensor& sensor, const Eigen::Vector3d& x_camera, const FrameFeatures& features,
                   int i) {
-  if (x_camera.z() <= 0) return false;
   const cv::Point2f& pixel = features.pixels[i];
-  const Eigen::Vector3d error =
-      sensor.intrinsics.ReprojectionError(x_camera, {pixel.x, pixel.y, features.right_u[i]});
+  const Eigen::Vector3d measured(pixel.x, pixel.y, features.right_u[i]);
+  if (x_camera.z() < NearestUsableM(measured)) return false;
+  const Eigen::Vector3d error = sensor.intrinsics.ReprojectionError(x_camera, measured);
   const double max_chi2 = features.right_u[i] < 0 ? 5.991 : 7.815;
   return error.squaredNorm() * sensor.pyramid.InverseVariance(features.levels[i]) <= max_chi2;
 }

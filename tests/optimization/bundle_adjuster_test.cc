@@ -170,6 +170,25 @@ TEST(BundleAdjuster, APointThatNobodySeesRightStaysWhereItIs) {
   EXPECT_EQ(scene.problem.points[lonely + 1], Eigen::Vector3d(1, 2, 3));
 }
 
+/// Two views agree on any point between them: one of a wrong match may lie before a lens, where it weighs as
+/// much as all others.
+TEST(BundleAdjuster, AWrongPointBeforeTheLensDoesNotPullTheCamera) {
+  Rng rng(9);
+  test::BundleScene scene = test::MakeBundleScene({.noise_px = 0.5}, &rng);
+  BundleProblem alone = scene.problem;
+  SolveBundle({}, {}, &alone);
+  const int wrong = static_cast<int>(scene.problem.points.size());
+  const Eigen::Vector3d at_lens =
+      Inverse(scene.problem.poses[3].camera_from_world) * Eigen::Vector3d(0.002, 0.001, 0.03);
+  scene.problem.points.push_back(at_lens);
+  scene.problem.observations.push_back({3, wrong, {360, 280, -1}, 1});
+  scene.problem.observations.push_back({4, wrong, {150, 300, -1}, 1});
+  const BundleSummary summary = SolveBundle({}, {}, &scene.problem);
+  EXPECT_FALSE(summary.is_inlier.back());
+  EXPECT_FALSE(summary.is_inlier[summary.is_inlier.size() - 2]);
+  EXPECT_LT(MaxPoseErrorM(scene.problem, alone), 1e-4);
+}
+
 TEST(BundleAdjuster, AnEmptyProblemIsSolved) {
   BundleProblem problem;
   problem.intrinsics = test::Kinect();

@@ -149,6 +149,38 @@ TEST(PoseOptimizer, UnusableObservationsAreOutliers) {
   EXPECT_LT(DistanceError(result.camera_from_world, truth.camera_from_world), 1e-8);
 }
 
+/// A wrong match of a keypoint without depth: the triangulated point lies before the lens, and fits the pose
+/// it asks for better the nearer it comes.
+TEST(PoseOptimizer, AWrongPointBeforeTheLensDoesNotPullTheCamera) {
+  Rng rng(9);
+  double with_m = 0, without_m = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    Truth truth;
+    PoseProblem problem = RandomProblem(300, 0.5, 0, &rng, &truth);
+    without_m += DistanceError(OptimizePose(problem).camera_from_world, truth.camera_from_world);
+    const Eigen::Vector3d at_lens(rng.Uniform(-0.01, 0.01), rng.Uniform(-0.01, 0.01), rng.Uniform(0.02, 0.3));
+    problem.observations.push_back({Inverse(truth.camera_from_world) * at_lens, {400, 200, -1}, 1});
+    const PoseResult result = OptimizePose(problem);
+    with_m += DistanceError(result.camera_from_world, truth.camera_from_world);
+    EXPECT_FALSE(result.is_inlier.back()) << trial;
+  }
+  EXPECT_LT(with_m, 1.01 * without_m);
+}
+
+TEST(PoseOptimizer, WhatHasDepthMayBeNear) {
+  Rng rng(10);
+  Truth truth;
+  PoseProblem problem = RandomProblem(100, 0, 0, &rng, &truth);
+  for (const bool has_depth : {true, false}) {
+    const Eigen::Vector3d x(0.1, 0.05, 0.3);
+    problem.observations.push_back(
+        {Inverse(truth.camera_from_world) * x, test::Measure(problem.intrinsics, x, 0, has_depth, &rng), 1});
+  }
+  const PoseResult result = OptimizePose(problem);
+  EXPECT_TRUE(result.is_inlier[100]);
+  EXPECT_FALSE(result.is_inlier[101]);
+}
+
 TEST(PoseOptimizer, DegenerateGeometryStaysFinite) {
   Rng rng(6);
   Truth truth;

@@ -95,6 +95,19 @@ TEST_F(PointViewTest, TheGateGrowsWithTheLevelAndCountsDepth) {
   }
 }
 
+TEST_F(PointViewTest, WithoutDepthNothingIsRightBeforeTheLens) {
+  FrameFeatures features = *frame_.features;
+  const Eigen::Vector3d x_camera(0.05, 0.02, 0.3);
+  const Eigen::Vector3d pixel = sensor_.intrinsics.Project(x_camera);
+  features.pixels[0] = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
+  features.right_u[0] = static_cast<float>(pixel.z());
+  EXPECT_TRUE(IsWithinGate(sensor_, x_camera, features, 0));
+  features.right_u[0] = -1;
+  EXPECT_FALSE(IsWithinGate(sensor_, x_camera, features, 0));
+  features.pixels[0] = {static_cast<float>(sensor_.intrinsics.cx), static_cast<float>(sensor_.intrinsics.cy)};
+  EXPECT_TRUE(IsWithinGate(sensor_, {0, 0, 0.5}, features, 0));
+}
+
 TEST_F(PointViewTest, QueriesKnowWhoseTheyAre) {
   PointQueries wanted;
   const MapPoint& point = PointAt(3);

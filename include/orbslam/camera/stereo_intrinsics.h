@@ -35,4 +35,9 @@ struct StereoIntrinsics {
   }
 };
 
+/// Nearer to the camera's plane than this, metres, or behind it, a measured (u, v, u_right) says nothing.
+/// Where a depth camera begins to measure (0.4 m: Nguyen, Izadi and Lovell, 3DIMPVT 2012) and has not, there
+/// are wrong matches rather than things, and one of those at 5 cm would outweigh a thousand points of a wall.
+inline double NearestUsableM(const Eigen::Vector3d& measured) { return measured.z() < 0 ? 0.4 : 1e-3; }
+
 }  // namespace orbslam

@@ -2,7 +2,8 @@
 """What the detector costs or wins beyond chance.
 
 The error of one run hangs on chance: a few keypoints more move it by 5 % (standard deviation) on fr1_rpy. So runs
-are repeated with slightly different numbers of keypoints, and their medians compared.
+are repeated with slightly different numbers of keypoints, and their means compared: of nine, known to 2 %. (Their
+medians would be a quarter less well known.)
 """
 import os
 import re
@@ -24,8 +25,8 @@ def num_features_of(settings_text):
     return int(found.group(1))
 
 
-def median_ratio(sequence, folder, programs, settings_text):
-    """Median ATE RMSE of the runs with the detector over that without; everything is written to folder."""
+def mean_ratio(sequence, folder, programs, settings_text):
+    """Mean ATE RMSE of the runs with the detector over that without; everything is written to folder."""
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, "settings.yaml")
     errors = {"with": [], "without": []}
@@ -37,4 +38,4 @@ def median_ratio(sequence, folder, programs, settings_text):
             run_folder = os.path.join(folder, kind)
             runs.track(sequence, run_folder, programs, options, path)
             errors[kind].append(runs.trajectory_figures(sequence, run_folder)["ate"]["rmse"])
-    return statistics.median(errors["with"]) / statistics.median(errors["without"])
+    return statistics.mean(errors["with"]) / statistics.mean(errors["without"])
