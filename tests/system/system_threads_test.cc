@@ -10,9 +10,13 @@
 namespace orbslam::test {
 namespace {
 
+// A mapper slowed by a sanitizer leaves few keyframes to hold on to, or to find the way back by: 300 are too
+// few.
+constexpr int kManyFeatures = 600;
+
 TEST(SystemThreads, EveryFrameIsTrackedWhetherTheMapperIsWaitedForOrNot) {
   for (const RunMode mode : {kDataset, kLive}) {
-    System system = MakeSystem(mode);
+    System system = MakeSystem(mode, kManyFeatures);
     EXPECT_EQ(TrackFrames(Walk(), 0, Walk().size(), &system), Walk().size());
     system.Shutdown();
     system.AdjustMaps();
@@ -34,8 +38,7 @@ TEST(SystemThreads, ResetForgetsEverythingAndStartsAgain) {
 }
 
 TEST(SystemThreads, LocalizationLeavesTheMapAsItIs) {
-  // A mapper slowed by a sanitizer leaves few keyframes to find the way back by: with 300 features too few.
-  System system = MakeSystem(kLive, 600);
+  System system = MakeSystem(kLive, kManyFeatures);
   TrackFrames(Walk(), 0, 15, &system);
   system.ActivateLocalizationMode();
   const MapData before = MapData::FromState(system.map().Read()->Export()).value();
