@@ -2,8 +2,8 @@
 """What the detector costs or wins beyond chance.
 
 The error of one run hangs on chance: a few keypoints more move it by 5 % (standard deviation) on fr1_rpy. So runs
-are repeated with slightly different numbers of keypoints, and their means compared: of nine, known to 2 %. (Their
-medians would be a quarter less well known.)
+are repeated with slightly different numbers of keypoints, and their means compared. Of nine, each is known to 2 %,
+and their ratio to 3 %. (Their medians would be a quarter less well known.)
 """
 import os
 import re

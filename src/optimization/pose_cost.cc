@@ -10,8 +10,8 @@
 namespace orbslam {
 namespace {
 
-// What an active observation costs while it is behind the camera: more than any that a step would trade for
-// it.
+// What an active observation costs while it is behind the camera or too near (NearestUsableM): more than any
+// that a step would trade for it.
 constexpr double kBehindLoss = 1e3;
 
 }  // namespace

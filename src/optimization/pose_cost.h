@@ -48,7 +48,7 @@ class PoseCost {
 
   State At(const Vector6d& parameters) const;
   Rigid3d PoseAt(const Vector6d& parameters) const;
-  /// Squared normalised error; infinite behind the camera or if anything is not finite.
+  /// Squared normalised error; infinite where NearestUsableM says so or if anything is not finite.
   double Chi2(int i, const State& state) const;
   std::vector<double> Chi2(const State& state) const;  // of each
   /// From now on gates, and with them the loss, are in units of the noise that these errors show.

@@ -46,12 +46,12 @@ struct BundleOptions {
   /// Median squared error of a point that many poses see, over that of the median point: above, it is not one
   /// place (it moves, or is a silhouette), and none of its observations is an inlier. 0: any is.
   double max_point_error_ratio = 0;
-  int num_threads = 1;             // more give results that differ from run to run
+  int num_threads = 1;  // more give results that differ from run to run
 };
 
 struct BundleSummary {
   std::vector<char>
-      is_inlier;  // one an observation, judged at the final estimate; also false behind a camera
+      is_inlier;  // one an observation, judged at the final estimate; also false where NearestUsableM says so
   double initial_cost = 0, final_cost = 0;  // of the first round
   int num_iterations = 0;
   bool was_stopped = false;  // asked to by the stop token; the problem then holds the best estimate so far
