@@ -19,7 +19,7 @@ BundleOptions OfManyFrames(const LoopOptions& options) {
   return {.solver = BundleOptions::Solver::kIterativeSchur,
           .robust_iterations = options.bundle_iterations,
           .final_iterations = 3 * options.bundle_iterations,
-          .max_point_error_ratio = 4};
+          .max_point_error_ratio = 3};  // a good point's is known to a third; beyond that again corners vary
 }
 
 /// Who sways in his chair was mapped, and silhouettes are nowhere: with many frames it shows.
