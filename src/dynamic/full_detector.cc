@@ -23,6 +23,7 @@ FullDetector::FullDetector(const PinholeCamera& camera, const DynamicDetectorOpt
       reducer_(camera, options.corners),
       history_(reducer_.grids().cell, options.references, camera.readout_s),
       flow_judge_(reducer_.grids(), options),
+      presence_(options.presence),
       cluster_judge_(options.fusion, options.histogram) {}
 
 DynamicMask FullDetector::Process(const RgbdImage& image) {
@@ -198,7 +199,14 @@ void FullDetector::Report(const WorkingFrame& frame, const Judgement& judgement,
     labelled.objects[index].line_integral_ratio = motion.ratio / kPersistentTau;
   }
   result->objects = std::move(labelled.objects);
-  if (cv::countNonZero(judgement.moving) > 0) result->mask = reducer_.ToRawMask(judgement.moving);
+  const int num_pixels = static_cast<int>(frame.depth_m.total()) * grids.cell_step * grids.cell_step;
+  const bool is_believed = presence_.Update(result->objects, num_pixels, frame.timestamp_s);
+  if (cv::countNonZero(judgement.moving) == 0) return;
+  if (is_believed) {
+    result->mask = reducer_.ToRawMask(judgement.moving);
+  } else {
+    result->fail_open_reason = "what may move is small and new";
+  }
 }
 
 }  // namespace orbslam

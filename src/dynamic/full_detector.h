@@ -10,6 +10,7 @@
 #include "flow_judge.h"
 #include "free_space.h"
 #include "histogram_evidence.h"
+#include "mover_presence.h"
 #include "object_tracker.h"
 #include "orbslam/pipeline/dynamic_mask.h"
 #include "scene_history.h"
@@ -58,6 +59,7 @@ class FullDetector {
   SceneHistory history_;
   FlowJudge flow_judge_;
   ObjectTracker tracker_;
+  MoverPresence presence_;
   ClusterJudge cluster_judge_;
   cv::Mat1f log_odds_;                             // of the last frame's cells
   int untrusted_frames_ = 0, covered_frames_ = 0;  // in a row
