@@ -66,7 +66,7 @@ int FrameTracker::TrackLastFrame(const Frame& last, Frame* frame) const {
     for (size_t q = 0; q < match.size(); ++q) {
       if (match[q] >= 0) frame->points[match[q]] = projected.points[q];
     }
-    return RefinePose(map_, sensor_, NearPointsOf(options_), frame);
+    return RefinePose(map_, sensor_, NearPointsOf(options_, *frame), frame);
   }
   return 0;
 }

@@ -25,8 +25,9 @@ KeyFrameEvidence GatherKeyFrameEvidence(const Sensor& sensor, const MapData& map
 bool NeedsKeyFrame(const KeyFrameEvidence& evidence, const KeyFramePolicyOptions& options) {
   const bool lacks_close = evidence.num_tracked_close < options.min_tracked_close &&
                            evidence.num_untracked_close > options.min_untracked_close;
+  const int num_points = evidence.num_reference_points + evidence.num_erased_points;
   const double num_expected = std::max(options.min_tracked_ratio * evidence.num_shared_points,
-                                       options.min_tracked_ratio_all * evidence.num_reference_points);
+                                       options.min_tracked_ratio_all * num_points);
   const bool sees_new = lacks_close || evidence.num_inliers < num_expected;
   if (!sees_new || evidence.num_inliers <= options.min_inliers) return false;
   const bool is_weak = lacks_close || evidence.num_inliers < options.weak_share * num_expected;

@@ -21,7 +21,7 @@ LocalMapTracker::Result LocalMapTracker::Track(const MovingRegion& moving, Frame
   }
   MatchCandidates(frame, counter);
   const std::vector<MapPointId> matched = frame->points;
-  result.num_inliers = RefinePose(map_, sensor_, NearPointsOf(options_), frame);
+  result.num_inliers = RefinePose(map_, sensor_, NearPointsOf(options_, *frame), frame);
   if (frame->moving_below_m > 0) CollectContradicted(*map_.Read(), matched, *frame, &result);
   for (const MapPointId id : frame->points) {
     if (id.IsValid()) counter->CountFound(id);

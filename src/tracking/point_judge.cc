@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orbslam/tracking/point_judge.h"
 
+#include <set>
+
 #include "orbslam/tracking/moving_region.h"
 
 namespace orbslam {
@@ -48,8 +50,13 @@ void PointJudge::Retract(const std::vector<MapPointId>& points, double since_s) 
   const auto recent = RecentObservations(*map_->Read(), points, since_s);
   if (recent.empty()) return;
   const auto guard = map_->Write();
-  for (const auto& [point, keyframe] : recent) guard->RemoveObservation(point, keyframe);
-  for (const auto& [point, keyframe] : recent) guard->RefreshMapPoint(point);
+  std::set<MapPointId> changed;
+  for (const auto& [point, keyframe] : recent) {
+    guard->RemoveObservation(point, keyframe);
+    ++num_taken_[keyframe];
+    changed.insert(point);
+  }
+  for (const MapPointId point : changed) guard->RefreshMapPoint(point);
 }
 
 void PointJudge::EraseCondemned() {
@@ -57,8 +64,16 @@ void PointJudge::EraseCondemned() {
   if (condemned.empty()) return;
   const auto guard = map_->Write();
   for (const MapPointId id : condemned) {
-    if (guard->Find(id) != nullptr) guard->EraseMapPoint(id);
+    const MapPoint* point = guard->Find(id);
+    if (point == nullptr) continue;
+    for (const Observation& observation : point->observations) ++num_taken_[observation.keyframe];
+    guard->EraseMapPoint(id);
   }
+}
+
+int PointJudge::NumTakenFrom(KeyFrameId keyframe) const {
+  const auto found = num_taken_.find(keyframe);
+  return found == num_taken_.end() ? 0 : found->second;
 }
 
 }  // namespace orbslam

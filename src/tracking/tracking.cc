@@ -58,6 +58,7 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
   report->moving = AskForMask(image.timestamp_s, mask_of_frame);
   OrbFeatures raw = Describe(report->moving.mask);
   doubt_.Note(report->moving, image.timestamp_s);
+  has_seen_movers_ = has_seen_movers_ || report->moving.MaskedShare() > 0;
   is_mask_unused_ =
       raw.num_dropped > 0 && static_cast<int>(raw.keypoints.size()) < options_.min_unmasked_keypoints;
   if (is_mask_unused_) {
@@ -67,13 +68,15 @@ Frame Tracking::MakeFrame(const RgbdImage& image, const MaskOfFrame& mask_of_fra
     raw = Describe(cv::Mat());
   }
   report->masked_share = report->moving.MaskedShare();
-  moving_ = MovingRegion(sensor_, report->moving.mask, mask_of_frame ? image.depth_m : cv::Mat());
+  moving_ = MovingRegion(sensor_, report->moving.mask, has_seen_movers_ ? image.depth_m : cv::Mat());
   report->num_dropped_keypoints = raw.num_dropped;
   FrameFeatures features =
       MakeFrameFeatures(raw, image.depth_m, sensor_.camera, sensor_.bounds, sensor_.depth);
   std::vector<MapPointId> points(features.size());
-  return {image.id, image.timestamp_s, std::make_shared<const FrameFeatures>(std::move(features)), Rigid3d(),
-          std::move(points)};
+  Frame frame{image.id, image.timestamp_s, std::make_shared<const FrameFeatures>(std::move(features)),
+              Rigid3d(), std::move(points)};
+  frame.may_show_movers = has_seen_movers_;
+  return frame;
 }
 
 OrbFeatures Tracking::Describe(const cv::Mat& mask) {
@@ -127,7 +130,7 @@ void Tracking::UpdateMotion(const MovingView& view, Frame* frame, FrameReport* r
   if (view.IsOfOneInstant(sensor_)) return;
   const auto measure = timer_.Measure("motion_within_frame");
   frame->features = AtOneInstant(view, sensor_, motion_);
-  report->num_matches = RefinePose(*map_, sensor_, NearPointsOf(options_), frame);
+  report->num_matches = RefinePose(*map_, sensor_, NearPointsOf(options_, *frame), frame);
   update();
 }
 
@@ -201,6 +204,7 @@ bool Tracking::WantsKeyFrame(const Frame& frame, int num_inliers, const MapperLo
   if (!mapper.accepts_keyframe || is_mask_unused_ || doubt_.Holds(frame.timestamp_s)) return false;
   KeyFrameEvidence evidence = GatherKeyFrameEvidence(sensor_, *map_->Read(), frame, reference_);
   evidence.since_last_keyframe_s = frame.timestamp_s - last_keyframe_s_;
+  evidence.num_erased_points = point_judge_.NumTakenFrom(reference_);
   evidence.num_inliers = num_inliers;
   evidence.is_mapper_idle = mapper.is_idle;
   return NeedsKeyFrame(evidence, policy_);

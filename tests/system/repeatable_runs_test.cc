@@ -31,9 +31,11 @@ std::vector<Rigid3d> PosesIn(const std::string& path) {
 
 /// What a run leaves behind in a folder of its own.
 struct Outcome {
-  explicit Outcome(RunMode mode, double revision_delay_s = TrackingOptions().revision_delay_s) {
+  explicit Outcome(RunMode mode, double revision_delay_s = TrackingOptions().revision_delay_s,
+                   bool detects_motion = true) {
     Settings settings = SettingsFor(Swings().camera(), 500);
     settings.tracking.revision_delay_s = revision_delay_s;
+    settings.detects_motion = detects_motion;
     System system(settings, {.mode = mode, .vocabulary = ShippedVocabulary()});
     EXPECT_EQ(TrackFrames(Swings(), 0, Swings().size(), &system), Swings().size());
     system.Shutdown();
@@ -52,6 +54,12 @@ TEST(RepeatableRuns, TwoSequentialRunsAgreeInEveryByte) {
   EXPECT_EQ(Content(a.camera), Content(b.camera));
   EXPECT_EQ(Content(a.keyframes), Content(b.keyframes));
   EXPECT_TRUE(Content(a.map) == Content(b.map));  // binary: not to be printed
+}
+
+TEST(RepeatableRuns, WhereNothingMovesTheDetectorChangesNoByte) {
+  const Outcome with(kSequential), without(kSequential, TrackingOptions().revision_delay_s, false);
+  EXPECT_EQ(Content(with.camera), Content(without.camera));
+  EXPECT_TRUE(Content(with.map) == Content(without.map));
 }
 
 TEST(RepeatableRuns, LaterPosesAreTheTrajectorysAndLeaveTheMapAlone) {

@@ -18,6 +18,7 @@ KeyFrameEvidence RandomEvidence(Rng* rng) {
           .num_inliers = Count(rng, 300),
           .num_shared_points = Count(rng, 400),
           .num_reference_points = Count(rng, 600),
+          .num_erased_points = Count(rng, 200),
           .num_tracked_close = Count(rng, 200),
           .num_untracked_close = Count(rng, 140),
           .is_mapper_idle = rng->Below(2) == 0};
@@ -27,6 +28,7 @@ KeyFrameEvidence RandomEvidence(Rng* rng) {
 const std::pair<const char*, std::function<void(KeyFrameEvidence*, Rng*)>> kPushes[] = {
     {"more time", [](KeyFrameEvidence* e, Rng* rng) { e->since_last_keyframe_s += rng->Uniform(0, 2); }},
     {"a richer reference", [](KeyFrameEvidence* e, Rng* rng) { e->num_reference_points += Count(rng, 300); }},
+    {"more of it that moved", [](KeyFrameEvidence* e, Rng* rng) { e->num_erased_points += Count(rng, 300); }},
     {"a better known one", [](KeyFrameEvidence* e, Rng* rng) { e->num_shared_points += Count(rng, 200); }},
     {"fewer close points", [](KeyFrameEvidence* e, Rng* rng) { e->num_tracked_close -= Count(rng, 100); }},
     {"more to be made", [](KeyFrameEvidence* e, Rng* rng) { e->num_untracked_close += Count(rng, 100); }},

@@ -60,6 +60,8 @@ class MaskedTrackingTest : public testing::Test {
     });
   }
   FrameReport ShowMasked(int board_u) { return Show(board_u, Mask(BoardAt(board_u))); }
+  /// In a corner.
+  void ShowThatSomethingMoves() { Show(100, Mask({0, 0, 20, 20})); }
 
   static bool IsOnBoard(const MapPoint& point) { return point.position_world.z() < (kBoardM + kWallM) / 2; }
   int NumPointsOnBoard() const {
@@ -135,6 +137,7 @@ TEST_F(MaskedTrackingTest, WhatWasSeenLatelyOfWhatTurnsOutToMoveNoLongerCounts) 
 }
 
 TEST_F(MaskedTrackingTest, PointsOnWhatIsGoneAreErasedAndOthersStay) {
+  ShowThatSomethingMoves();
   for (int i = 0; i < 3; ++i) Show(100, {});
   const int num_on_board = NumPointsOnBoard(), num_points = map_.Read()->num_points();
   ASSERT_GT(num_on_board, 50);
@@ -144,17 +147,31 @@ TEST_F(MaskedTrackingTest, PointsOnWhatIsGoneAreErasedAndOthersStay) {
   EXPECT_THAT(FindBrokenInvariants(*map_.Read()), testing::IsEmpty());
 }
 
-TEST_F(MaskedTrackingTest, WhoDoesNotAskForMasksKeepsWhatIsGone) {
-  tracking_.Process(Image(100));
-  const int num_on_board = NumPointsOnBoard();
-  ASSERT_GT(num_on_board, 50);
-  for (int i = 0; i < 6; ++i) tracking_.Process(Image(kNoBoard));
-  EXPECT_EQ(NumPointsOnBoard(), num_on_board);
+TEST_F(MaskedTrackingTest, WhereNothingHasEverMovedAndWithoutMasksNothingIsTakenForGone) {
+  for (const bool asks : {true, false}) {
+    const auto show = [&](int board_u) { asks ? Show(board_u, {}) : tracking_.Process(Image(board_u)); };
+    show(100);
+    const int num_on_board = NumPointsOnBoard();
+    ASSERT_GT(num_on_board, 50);
+    for (int i = 0; i < 6; ++i) show(kNoBoard);
+    EXPECT_EQ(NumPointsOnBoard(), num_on_board) << asks;
+  }
+}
+
+/// The mask leaves the keypoints' number as it is: others are found off it, and wait for points.
+TEST_F(MaskedTrackingTest, WhereManyPointsAreErasedAKeyFrameSoonMakesOthers) {
+  const cv::Mat most = Mask({size_.width / 4, 0, 3 * size_.width / 4, size_.height});
+  for (int i = 0; i < 3; ++i) Show(kNoBoard, {});
+  int num_keyframes = 0;
+  for (int i = 0; i < 10; ++i) num_keyframes += Show(kNoBoard, most).new_keyframe.has_value();
+  EXPECT_EQ(num_keyframes, 1);
+  EXPECT_GT(Show(kNoBoard, most).num_matches, 700);
 }
 
 /// Depth may have been taken somewhat earlier or later.
 TEST_F(MaskedTrackingTest, WhileThePictureShiftsFastNothingIsTakenForGone) {
   constexpr int kShiftPx = 12;
+  ShowThatSomethingMoves();
   Show(100, {});
   const int num_on_board = NumPointsOnBoard();
   ASSERT_GT(num_on_board, 50);

@@ -18,6 +18,7 @@ struct Frame {
   Rigid3d camera_from_world;
   std::vector<MapPointId> points;                // one a keypoint; invalid: none
   Matrix6d pose_information = Matrix6d::Zero();  // UncertainPose's
+  bool may_show_movers = true;                   // false: nothing has ever moved before this camera
   double moving_below_m = 0;  // what is nearer moves, for it contradicts what is far (FarPose); 0: nothing
 
   int NumPoints() const;

@@ -14,6 +14,7 @@ struct KeyFrameEvidence {
   int num_inliers = 0;           // map points tracked in this frame
   int num_shared_points = 0;     // points of the reference keyframe that another one sees too
   int num_reference_points = 0;  // all its points
+  int num_erased_points = 0;     // it had more, but they moved: others can take their place
   int num_tracked_close = 0;     // close keypoints with a map point
   int num_untracked_close = 0;   // close keypoints without
   bool is_mapper_idle = true;

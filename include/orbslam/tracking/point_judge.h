@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "orbslam/map/map.h"
@@ -24,6 +25,8 @@ class PointJudge {
   void Retract(const std::vector<MapPointId>& points, double since_s);
   /// Takes the points out of the map that enough frames have spoken against.
   void EraseCondemned();
+  /// Of the points that the keyframe saw: how many it has lost to both.
+  int NumTakenFrom(KeyFrameId keyframe) const;
 
  private:
   void RefuteSeenThrough(const std::vector<MapPointId>& seen_through, const Frame& frame, const Frame& last);
@@ -31,6 +34,7 @@ class PointJudge {
   const Sensor& sensor_;
   Map* map_;
   Quarantine quarantine_;
+  std::map<KeyFrameId, int> num_taken_;
 };
 
 }  // namespace orbslam

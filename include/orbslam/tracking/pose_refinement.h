@@ -17,10 +17,10 @@ struct FramePoseProblem {
 /// Follows fused points and forgets erased ones, in the frame too.
 FramePoseProblem GatherPoseProblem(const Map& map, const Sensor& sensor, Frame* frame);
 
-/// Whether what is near may contradict what is far (FarPose).
+/// Whether what is near may contradict what is far (FarPose): not in a scene where nothing has ever moved.
 enum class NearPoints { kTrusted, kDoubted };
-inline NearPoints NearPointsOf(const TrackingOptions& options) {
-  return options.doubt_near_points ? NearPoints::kDoubted : NearPoints::kTrusted;
+inline NearPoints NearPointsOf(const TrackingOptions& options, const Frame& frame) {
+  return frame.may_show_movers && options.doubt_near_points ? NearPoints::kDoubted : NearPoints::kTrusted;
 }
 
 /// Optimises the frame's pose over the map points its keypoints show, and forgets the matches that turn out

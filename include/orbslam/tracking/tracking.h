@@ -81,11 +81,12 @@ class Tracking {
 
   TrackingState state_ = TrackingState::kNotInitialized;
   bool makes_keyframes_ = true;
-  MovingRegion moving_;          // of the present frame
-  bool is_mask_unused_ = false;  // the present frame may show moving objects as if they were static
-  uint64_t epoch_ = 0;           // of the map, when the present frame was begun
-  std::optional<Frame> last_;    // the last frame that was tracked
-  KeyFrameId reference_;         // the keyframe that shares most points with it
+  MovingRegion moving_;           // of the present frame
+  bool has_seen_movers_ = false;  // ever: until then everything is taken to rest, as without a detector
+  bool is_mask_unused_ = false;   // the present frame may show moving objects as if they were static
+  uint64_t epoch_ = 0;            // of the map, when the present frame was begun
+  std::optional<Frame> last_;     // the last frame that was tracked
+  KeyFrameId reference_;          // the keyframe that shares most points with it
   Rigid3d last_from_reference_;
   double last_keyframe_s_ = 0;
   KeyFrameId last_keyframe_;
