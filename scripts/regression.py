@@ -17,7 +17,6 @@ import yaml
 
 import command_line
 import compare_runs
-import mean_ratio
 import regression_runs as runs
 from trajectory import InputError
 
@@ -35,7 +34,6 @@ BASELINE_RATIOS = ("ate_ratio_empty", "ate_ratio_true_masks")
 FIGURES = {
     "ate_m": ("ATE RMSE with the detector", " m", 1),
     "ate_ratio": ("ATE RMSE with the detector over that without", "", 1),
-    "ate_ratio_mean": ("mean ATE RMSE of varied runs with the detector over that without", "", 1),
     "ate_ratio_empty": ("ATE RMSE over that of the same path with nobody there", "", 1),
     "ate_ratio_true_masks": ("ATE RMSE over that with the true masks", "", 1),
     "eta_percent": ("improvement eta of the ATE RMSE", " %", 1),
@@ -84,7 +82,6 @@ def figures_of(result):
     def ratio(baseline):
         return ate / baseline if baseline else None
     return {"ate_m": ate, "ate_ratio": ratio(without["ate"]["rmse"]),
-            "ate_ratio_mean": result["ate_ratio_mean"],
             **{name: ratio(result["baseline_ate_m"].get(name)) for name in BASELINE_RATIOS},
             "eta_percent": result["improvement_percent"]["ate"]["rmse"],
             "coverage": with_it["coverage"]["ratio"],
@@ -132,15 +129,6 @@ def measure_baselines(sequence, bounds, output, programs):
     return errors
 
 
-def measure_mean_ratio(sequence, bounds, folder, programs):
-    """The ratio of mean_ratio.py, if it is bounded: it takes many runs."""
-    if not any(key.endswith("ate_ratio_mean") for key in bounds or {}):
-        return None
-    runs.say(f"{sequence.name}: varied runs")
-    settings = runs.read_settings(os.path.join(folder, "without"))
-    return mean_ratio.mean_ratio(sequence, os.path.join(folder, "varied"), programs, settings)
-
-
 def measure(sequence, bounds, output, programs):
     """Makes the sequence if need be and runs without and with the detector."""
     runs.make(sequence, programs)
@@ -151,7 +139,6 @@ def measure(sequence, bounds, output, programs):
     with_it, _ = runs.run_with_detector(sequence, os.path.join(folder, "with"), programs)
     return {"without": without, "with": with_it,
             "improvement_percent": compare_runs.compare(without, with_it),
-            "ate_ratio_mean": measure_mean_ratio(sequence, bounds, folder, programs),
             "baseline_ate_m": measure_baselines(sequence, bounds, output, programs)}
 
 

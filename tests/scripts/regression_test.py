@@ -81,7 +81,6 @@ class RegressionTest(StubbedTest):
     def test_within_the_bounds_it_succeeds(self):
         bounds = ("{max_ate_m: 0.1, min_ate_ratio_empty: 0.09, max_ate_ratio_empty: 0.11, "
                   "min_ate_ratio_true_masks: 0.06, max_ate_ratio_true_masks: 0.07, "
-                  "min_ate_ratio_mean: 0.09, max_ate_ratio_mean: 0.11, "
                   "min_eta_percent: 89, min_recall: 1}")
         result = self.run_ok("--quick", NAME, *self.bounds(f"{NAME}: {bounds}"))
         self.assertIn("all figures are within their bounds", result.stdout)
