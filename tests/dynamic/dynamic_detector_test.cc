@@ -59,6 +59,15 @@ TEST(DynamicDetector, MasksWhoWalksAcrossTheAxis) {
   EXPECT_NEAR(result.last.objects.front().centroid_m.z(), 1.7, 0.15);
 }
 
+TEST(DynamicDetector, HoldsBackWhatIsNotBelievedAndSaysSo) {
+  DynamicDetectorOptions options;
+  options.presence = {.min_share = 1, .min_log_odds = 100, .min_age_s = 100};
+  const WatchResult result = Watch(AcrossTheAxis, 30, 15, options);
+  EXPECT_EQ(result.mean.masked_share, 0);
+  EXPECT_FALSE(result.last.objects.empty());
+  EXPECT_THAT(result.last.fail_open_reason, testing::HasSubstr("small and new"));
+}
+
 TEST(DynamicDetector, MasksWhoWalksAlongTheAxis) {
   const WatchResult result = Watch(
       [](double t) {
