@@ -120,6 +120,14 @@ TEST_F(LocalMapTrackerTest, WhatIsNearIsTrustedWhereNothingIsSaidToMove) {
   EXPECT_EQ(frame.moving_below_m, 0);
 }
 
+TEST_F(LocalMapTrackerTest, WhatIsNearIsTrustedWhereNothingHasEverMoved) {
+  MoveWhatIsNear(2);
+  Frame frame = FrameWithFirstPoints(left_);
+  frame.may_show_movers = false;
+  EXPECT_TRUE(tracker_.Track(nothing_moves_, &frame, &counter_).near_moving.empty());
+  EXPECT_EQ(frame.moving_below_m, 0);
+}
+
 TEST_F(LocalMapTrackerTest, NothingIsNamedWhereAllRests) {
   Frame frame = FrameWithFirstPoints(left_);
   EXPECT_TRUE(tracker_.Track(nothing_moves_, &frame, &counter_).near_moving.empty());

@@ -60,7 +60,7 @@ class MaskedTrackingTest : public testing::Test {
     });
   }
   FrameReport ShowMasked(int board_u) { return Show(board_u, Mask(BoardAt(board_u))); }
-  /// In a corner.
+  /// Somewhere: what else it did does not matter.
   void ShowThatSomethingMoves() { Show(100, Mask({0, 0, 20, 20})); }
 
   static bool IsOnBoard(const MapPoint& point) { return point.position_world.z() < (kBoardM + kWallM) / 2; }

@@ -28,13 +28,13 @@ struct FlowOptions {
 
 /// The camera's motion from corners.
 struct PoseFromCornersOptions {
-  int num_draws = 80;        // at most: with 60 % outliers, 99 % certain to draw three inliers at least once
+  int num_draws = 80;      // at most: with 60 % outliers, 99 % certain to draw three inliers at least once
   double max_missed = 0.01;  // they end when, of inliers as many as the best pose has, this is the chance
                              // that no three were drawn together
-  float inlier_px = 0.4f;    // grey px: 3 sigma of the flow where pictures blur. With 1 px, one who walks
-                             // slowly passes for the room
-  double sigma_px = 0.7;     // grey px, of a corner's place: flow, depth and rolling shutter
-  int min_inliers = 12;      // twice the unknowns, each giving two equations
+  float inlier_px = 0.4f;  // grey px: 3 sigma of the flow where pictures blur. With 1 px, one who walks
+                           // slowly passes for the room
+  double sigma_px = 0.7;   // grey px, of a corner's place: flow, depth and rolling shutter
+  int min_inliers = 12;    // twice the unknowns, each giving two equations
 };
 
 /// The depth camera's motion.
@@ -80,8 +80,7 @@ struct CameraMotionOptions {
   double max_clock_share =
       0.25;            // of the motion: colour and depth are up to half an interval apart, and that varies
   int far_target = 8;  // frames back: second target of the alignment, against drift
-  int min_inliers_with_depth =
-      6;                       // corners, where the depth's motion is their prior: that is worth six others
+  int min_inliers_with_depth = 6;  // corners, where the depth's motion is their prior: that is worth six others
   double min_fit_share = 0.5;  // of the paired depth within the gate; below, the motion is not trusted
 };
 
@@ -194,20 +193,20 @@ struct FusionOptions {
 
 /// Cells without depth, log-odds a frame.
 struct GrowthOptions {
-  bool use_growth = true;      // into cells without depth at all
-  bool use_background = true;  // appearance against the static scene that references let expect
-  bool use_corners = true;     // flow against the camera's motion
-  int max_steps = 12;          // cells, how far from a moving cell: a tenth of the image's height
-  int free_steps = 3;          // silhouettes that the sensor loses
-  float similar_gray = 15.f;   // grey levels between neighbours of one thing
-  float noise_gray = 12.f;     // grey levels: 3 sigma of noise and of what the reduction leaves
-  float prior = -0.15f;        // without evidence: things rest
-  float differs = 0.6f;        // looks other than the static scene there;
-  float agrees = -0.6f;        // like it. Both small, for errors last from frame to frame
-  float corner_moves = 0.8f;   // a corner nearby does not move as the static scene,
-  float corner_rests = -0.5f;  // does
-  float contact = 0.5f;  // connected to a moving cell that has depth; when growing, within free_steps of it,
-  float memory = 0.9f;   // share of the last frame's that is kept: a third of a second
+  bool use_growth = true;        // into cells without depth at all
+  bool use_background = true;    // appearance against the static scene that references let expect
+  bool use_corners = true;       // flow against the camera's motion
+  int max_steps = 12;            // cells, how far from a moving cell: a tenth of the image's height
+  int free_steps = 3;            // silhouettes that the sensor loses
+  float similar_gray = 15.f;     // grey levels between neighbours of one thing
+  float noise_gray = 12.f;       // grey levels: 3 sigma of noise and of what the reduction leaves
+  float prior = -0.15f;          // without evidence: things rest
+  float differs = 0.6f;          // looks other than the static scene there;
+  float agrees = -0.6f;          // like it. Both small, for errors last from frame to frame
+  float corner_moves = 0.8f;     // a corner nearby does not move as the static scene,
+  float corner_rests = -0.5f;    // does
+  float contact = 0.5f;          // connected to a moving cell that has depth; when growing, within free_steps of it,
+  float memory = 0.9f;           // share of the last frame's that is kept: a third of a second
   float similar_contact = 0.3f;  // beyond it, of similar grey,
   float other_contact = -1.5f;   // not of similar grey
 };
