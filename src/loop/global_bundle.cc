@@ -21,7 +21,8 @@ BundleOptions OfManyFrames(const LoopOptions& options) {
   return {.solver = BundleOptions::Solver::kIterativeSchur,
           .robust_iterations = options.bundle_iterations,
           .final_iterations = 3 * options.bundle_iterations,
-          .max_point_error_ratio = 3};
+          .max_point_error_ratio = 3,
+          .counts_depth_once = true};
 }
 
 /// Who sways in his chair was mapped, and silhouettes are nowhere: with many frames it shows.

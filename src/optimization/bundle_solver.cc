@@ -90,10 +90,20 @@ void BundleSolver::AddParameters() {
   }
 }
 
+std::vector<double> BundleSolver::DepthWeights() const {
+  std::vector<double> weights(points_.size(), 1);
+  if (!options_.counts_depth_once) return weights;
+  std::vector<int> num_depths(points_.size(), 0);
+  for (const BundleObservation& o : input_.observations) num_depths[o.point] += !IsMono(o);
+  for (size_t p = 0; p < points_.size(); ++p) weights[p] = 1.0 / std::max(1, num_depths[p]);
+  return weights;
+}
+
 void BundleSolver::AddResiduals() {
+  const std::vector<double> depth_weights = DepthWeights();
   for (const BundleObservation& o : input_.observations) {
     PoseBlock& pose = poses_[o.pose];
-    costs_.emplace_back(input_.intrinsics, o);
+    costs_.emplace_back(input_.intrinsics, o, depth_weights[o.point]);
     ceres_.AddResidualBlock(&costs_.back(), IsMono(o) ? &*mono_loss_ : &*stereo_loss_, pose.rotation.data(),
                             pose.translation.data(), points_[o.point].data());
   }

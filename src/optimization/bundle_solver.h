@@ -47,6 +47,7 @@ class BundleSolver {
 
   void AddParameters();
   void AddResiduals();
+  std::vector<double> DepthWeights() const;  // one a point
   /// By how much the gates shrink, given the errors.
   double GateScale(const std::vector<double>& chi2) const;
   std::vector<double> Chi2() const;  // one an observation

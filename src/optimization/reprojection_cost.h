@@ -12,19 +12,21 @@
 namespace orbslam {
 
 /// Reprojection error (u, v, disparity) over its standard deviation; the third is 0 for a keypoint without
-/// depth. Parameters: rotation (quaternion x y z w) and translation of camera_from_world, the point in the
-/// world. Behind the camera and too near (NearestUsableM) the error is a constant, so that no step gains by
-/// moving a point there.
+/// depth, and its square weighs depth_weight times as much as the others'. Parameters: rotation (quaternion x
+/// y z w) and translation of camera_from_world, the point in the world. Behind the camera and too near
+/// (NearestUsableM) the error is a constant, so that no step gains by moving a point there.
 ///
 /// Everything is 3 wide for speed: Ceres' Schur elimination is compiled for blocks of 3 x 3, while a mixture
 /// of 2 and 3 rows or pose blocks of 6 falls back to loops of run-time size, which take twice as long.
 class ReprojectionCost final : public ceres::SizedCostFunction<3, 4, 3, 3> {
  public:
-  ReprojectionCost(const StereoIntrinsics& intrinsics, const BundleObservation& observation)
+  ReprojectionCost(const StereoIntrinsics& intrinsics, const BundleObservation& observation,
+                   double depth_weight = 1)
       : intrinsics_(&intrinsics),
         pixel_(observation.pixel),
         weight_(Eigen::Vector3d::Constant(std::sqrt(observation.inverse_variance))) {
-    if (observation.pixel.z() < 0) weight_.z() = 0;  // no depth: no derivative either
+    const bool has_depth = observation.pixel.z() >= 0;
+    weight_.z() *= has_depth ? std::sqrt(depth_weight) : 0;  // no depth: no derivative either
   }
 
   /// An inactive one is zero everywhere.

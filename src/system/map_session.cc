@@ -8,8 +8,9 @@ namespace {
 
 constexpr size_t kMaxWaitingKeyFrames = 3;
 constexpr size_t kMaxWaitingLoops = 64;
-// Frames beside the keyframes in the last adjustment.
-constexpr double kSampleIntervalS = 0.2;
+// Frames beside the keyframes in the last adjustment: more where somebody hides part of the room, and points
+// are seen for a short time.
+constexpr TrajectoryLog::SampleIntervals kSampleInterval{.clear_s = 0.2, .masked_s = 0.1};
 constexpr int kMaxSample = 1000;
 
 }  // namespace
@@ -95,7 +96,7 @@ void MapSession::Stop(std::chrono::milliseconds max_wait) {
 void MapSession::AdjustWholeMap(std::stop_token stop) {
   if (!has_grown_) return;
   const auto measure = timer_.Measure("map.final_bundle");
-  const auto others = trajectory_.Sample(kSampleIntervalS, kMaxSample);
+  const auto others = trajectory_.Sample(kSampleInterval, kMaxSample);
   if (!AdjustGlobally(loop_options_, sensor_, others, stop, &turn_, &map_)) return;
   trajectory_.FindPosesAgain(map_, sensor_, stop);
   has_grown_ = false;

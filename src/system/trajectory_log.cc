@@ -29,7 +29,8 @@ void TrajectoryLog::Add(const RgbdImage& image, const FrameReport& report) {
                        report.pose_information,
                        {}},
                       image.timestamp_text.empty() ? FormatFixed(image.timestamp_s, 6) : image.timestamp_text,
-                      stretch_});
+                      stretch_,
+                      report.masked_share > 0});
 }
 
 void TrajectoryLog::Revise(PastFrame revised) {
@@ -41,11 +42,14 @@ void TrajectoryLog::Revise(PastFrame revised) {
     entries_[index - kMaxWithSightings].frame.sightings = {};
 }
 
-std::vector<const PastFrame*> TrajectoryLog::Sample(double min_interval_s, int max_count) const {
+std::vector<const PastFrame*> TrajectoryLog::Sample(const SampleIntervals& min_interval,
+                                                    int max_count) const {
+  constexpr double kJitterS = 1e-3;  // of time stamps, so that an interval of n frames is one
   std::vector<const PastFrame*> sample;
-  for (const auto& [frame, text, stretch] : entries_) {
+  for (const auto& [frame, text, stretch, is_masked] : entries_) {
     if (frame.sightings.empty()) continue;
-    if (sample.empty() || frame.timestamp_s - sample.back()->timestamp_s >= min_interval_s)
+    const double interval_s = is_masked ? min_interval.masked_s : min_interval.clear_s;
+    if (sample.empty() || frame.timestamp_s - sample.back()->timestamp_s >= interval_s - kJitterS)
       sample.push_back(&frame);
   }
   if (std::ssize(sample) > max_count) {

@@ -136,6 +136,46 @@ TEST_P(BundleAdjusterTest, APointThatSwaysIsNoPlaceIfMorePosesThanAFewSeeIt) {
   }
 }
 
+/// A scene whose points have depths that are off, for each point alike wherever it is seen from.
+test::BundleScene SceneOfWrongDepths(Rng* rng) {
+  test::BundleScene scene = test::MakeBundleScene(
+      {.num_free_poses = 28, .num_points = 200, .views_per_point = 20, .noise_px = 0.2}, rng);
+  std::vector<double> error_px;
+  for (size_t p = 0; p < scene.problem.points.size(); ++p) error_px.push_back(rng->Gaussian());
+  for (BundleObservation& o : scene.problem.observations)
+    if (o.pixel.z() > 0) o.pixel.z() += error_px[o.point];
+  return scene;
+}
+
+TEST_P(BundleAdjusterTest, ADepthThatIsOffInEveryViewBendsLessIfItCountsOnce) {
+  double error_m[2];
+  for (const bool counts_once : {false, true}) {
+    Rng rng(10);
+    test::BundleScene scene = SceneOfWrongDepths(&rng);
+    SolveBundle({.solver = GetParam(),
+                 .robust_iterations = 30,
+                 .max_chi2_stereo = 1e9,
+                 .counts_depth_once = counts_once},
+                {}, &scene.problem);
+    error_m[counts_once] = MaxPoseErrorM(scene.problem, scene.truth);
+  }
+  EXPECT_LT(error_m[1], 0.5 * error_m[0]);
+}
+
+TEST_P(BundleAdjusterTest, ADepthThatIsTheOnlyOneOfItsPointCountsInFull) {
+  Rng rng(11);
+  test::BundleScene scene = test::MakeBundleScene({}, &rng);
+  int last_point = -1;
+  for (BundleObservation& o : scene.problem.observations) {  // a point's follow one another
+    if (o.point == last_point) o.pixel.z() = -1;
+    last_point = o.point;
+  }
+  BundleProblem once = scene.problem, always = scene.problem;
+  SolveBundle({.solver = GetParam(), .counts_depth_once = true}, {}, &once);
+  SolveBundle({.solver = GetParam()}, {}, &always);
+  EXPECT_TRUE(AreIdentical(once, always));
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, BundleAdjusterTest,
                          ::testing::Values(BundleOptions::Solver::kDenseSchur,
                                            BundleOptions::Solver::kSparseSchur,

@@ -20,7 +20,8 @@ TEST(ReprojectionCost, JacobiansAgreeWithNumericOnes) {
   for (int trial = 0; trial < 100; ++trial) {
     const Rigid3d camera_from_world = test::RandomMotion(&rng, 1, 1);
     const Eigen::Vector3d x = test::RandomVisiblePoint(k, &rng);
-    const ReprojectionCost cost(k, {0, 0, test::Measure(k, x, 5, trial % 2 == 0, &rng), rng.Uniform(0.1, 2)});
+    const ReprojectionCost cost(k, {0, 0, test::Measure(k, x, 5, trial % 2 == 0, &rng), rng.Uniform(0.1, 2)},
+                                /*depth_weight=*/rng.Uniform(0.05, 1));
     const Eigen::Quaterniond& q = camera_from_world.rotation;
     test::ExpectJacobiansAreRight(cost,
                                   {{q.x(), q.y(), q.z(), q.w()},

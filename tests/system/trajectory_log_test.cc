@@ -63,11 +63,14 @@ TEST_F(TrajectoryLogTest, AStopLeavesPosesAsTheyAre) {
   ExpectPose(1, PoseOf(0.4));
 }
 
-/// A log of frames at 30 Hz; what those saw of which it is asked is known.
-TrajectoryLog LogOfSightings(uint32_t num_frames, const std::function<bool(uint32_t)>& has_sightings) {
+/// A log of frames at 30 Hz; what those saw of which it is asked is known, and something moved in others.
+TrajectoryLog LogOfSightings(
+    uint32_t num_frames, const std::function<bool(uint32_t)>& has_sightings,
+    const std::function<bool(uint32_t)>& is_masked = [](uint32_t) { return false; }) {
   TrajectoryLog log{MotionPrior{}};
   for (uint32_t i = 0; i < num_frames; ++i) {
     FrameReport report{.id = FrameId(i), .timestamp_s = i / 30.0, .world_from_camera = Rigid3d()};
+    report.masked_share = is_masked(i) ? 0.3 : 0;
     log.Add({.id = FrameId(i), .timestamp_s = report.timestamp_s}, report);
     if (has_sightings(i)) log.Revise({FrameId(i), report.timestamp_s, {}, {}, {}, std::vector<Sighting>(1)});
   }
@@ -76,22 +79,31 @@ TrajectoryLog LogOfSightings(uint32_t num_frames, const std::function<bool(uint3
 
 TEST(TrajectoryLogSample, OfHoursIsOfTheirEnd) {
   const TrajectoryLog log = LogOfSightings(20010, [](uint32_t) { return true; });
-  const auto all = log.Sample(0, 100000);
+  const auto all = log.Sample({0, 0}, 100000);
   EXPECT_EQ(all.size(), 20000u) << "memory is bounded";
   EXPECT_EQ(all.front()->id, FrameId(10));
 }
 
 TEST(TrajectoryLogSample, IsSpreadInTimeOverFramesThatSawAnything) {
   const TrajectoryLog log = LogOfSightings(300, [](uint32_t i) { return i < 100 || i >= 200; });
-  const auto all = log.Sample(/*min_interval_s=*/0.2, /*max_count=*/1000);
-  EXPECT_NEAR(static_cast<double>(all.size()), 200 / 6.0, 4);
+  const auto all = log.Sample({.clear_s = 0.2, .masked_s = 0.1}, /*max_count=*/1000);
+  EXPECT_EQ(all.size(), 34u) << "every sixth of two hundred";
   for (const PastFrame* frame : all) EXPECT_FALSE(frame->sightings.empty());
-  for (size_t i = 1; i < all.size(); ++i) EXPECT_GE(all[i]->timestamp_s - all[i - 1]->timestamp_s, 0.2);
-  const auto few = log.Sample(0.2, 8);
+  for (size_t i = 1; i < all.size(); ++i) EXPECT_GT(all[i]->timestamp_s - all[i - 1]->timestamp_s, 0.199);
+  const auto few = log.Sample({0.2, 0.1}, 8);
   ASSERT_EQ(few.size(), 8u);
   EXPECT_EQ(few.front(), all.front());
   for (size_t i = 1; i < few.size(); ++i) EXPECT_GT(few[i]->timestamp_s, few[i - 1]->timestamp_s);
   EXPECT_GT(few.back()->timestamp_s, 8.0);
+}
+
+TEST(TrajectoryLogSample, IsDenserWhereSomethingMoves) {
+  const TrajectoryLog log = LogOfSightings(
+      300, [](uint32_t) { return true; }, [](uint32_t i) { return i >= 150; });
+  const auto all = log.Sample({.clear_s = 0.2, .masked_s = 0.1}, 1000);
+  const auto num_early = std::ranges::count_if(all, [](const PastFrame* f) { return f->id < FrameId(150); });
+  EXPECT_EQ(num_early, 25) << "every sixth";
+  EXPECT_EQ(std::ssize(all) - num_early, 50) << "every third";
 }
 
 /// One frame a tenth of a second, of which the third jumps by a hand's breadth.

@@ -46,6 +46,9 @@ struct BundleOptions {
   /// Median squared error of a point that many poses see, over that of the median point: above, it is not one
   /// place (it moves, or is a silhouette), and none of its observations is an inlier. 0: any is.
   double max_point_error_ratio = 0;
+  /// All depths of a point together weigh as much as one: its corner lies on an edge, or the depth image is
+  /// bent there, alike in all of them, so that more of them tell no more.
+  bool counts_depth_once = false;
   int num_threads = 1;  // more give results that differ from run to run
 };
 

@@ -23,8 +23,12 @@ class TrajectoryLog {
   void Add(const RgbdImage& image, const FrameReport& report);
   /// Of a frame that was added: its later pose, and what it saw.
   void Revise(PastFrame revised);
-  /// Frames whose sightings are known, with at least this time between them, and no more than that many.
-  std::vector<const PastFrame*> Sample(double min_interval_s, int max_count) const;
+  /// Least time between frames of a sample: of those that show nothing that moves, and of those that do.
+  struct SampleIntervals {
+    double clear_s, masked_s;
+  };
+  /// Frames whose sightings are known, at such intervals from the last, and no more than that many.
+  std::vector<const PastFrame*> Sample(const SampleIntervals& min_interval, int max_count) const;
   /// Looks for the pose of every frame whose sightings are known once more: after the map was adjusted.
   void FindPosesAgain(const Map& map, const Sensor& sensor, const std::stop_token& stop);
 
@@ -39,7 +43,8 @@ class TrajectoryLog {
   struct Entry {
     PastFrame frame;
     std::string timestamp_text;
-    int stretch;  // frames of one have followed one another with a pose each
+    int stretch;     // frames of one have followed one another with a pose each
+    bool is_masked;  // something moved in it
   };
   struct Placed {
     const Entry* entry;
