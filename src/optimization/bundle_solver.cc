@@ -92,10 +92,11 @@ void BundleSolver::AddParameters() {
 
 std::vector<double> BundleSolver::DepthWeights() const {
   std::vector<double> weights(points_.size(), 1);
-  if (!options_.counts_depth_once) return weights;
+  if (options_.depth_correlation == 0) return weights;
   std::vector<int> num_depths(points_.size(), 0);
   for (const BundleObservation& o : input_.observations) num_depths[o.point] += !IsMono(o);
-  for (size_t p = 0; p < points_.size(); ++p) weights[p] = 1.0 / std::max(1, num_depths[p]);
+  for (size_t p = 0; p < points_.size(); ++p)
+    weights[p] = 1 / (1 + std::max(0, num_depths[p] - 1) * options_.depth_correlation);
   return weights;
 }
 

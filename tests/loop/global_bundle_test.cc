@@ -34,14 +34,18 @@ class GlobalBundleTest : public SyntheticMap {
     for (int i = 0; i < num_frames; ++i) others.push_back(&frames_[i]);
     return AdjustGlobally({}, sensor_, others, {}, &turn_, &map_);
   }
-  /// Root mean square over points that several keyframes see.
+  /// Across the line of sight, root mean square over points that several keyframes see: what pixels tell. How
+  /// far they are, depths tell, whose errors many frames share.
   double PointErrorM() const {
     const auto map = map_.Read();
+    const Eigen::Vector3d centre_m = Inverse(PoseAt(0.5)).translation;
     double sum = 0, count = 0;
     for (const auto& [landmark, id] : point_of_) {
       const MapPoint* point = map->Find(id);
       if (point == nullptr || point->observations.size() < 2) continue;
-      sum += (point->position_world - landmarks_[landmark].position_world).squaredNorm();
+      const Eigen::Vector3d truth = landmarks_[landmark].position_world,
+                            ray = (truth - centre_m).normalized();
+      sum += ray.cross(point->position_world - truth).squaredNorm();
       ++count;
     }
     return std::sqrt(sum / count);

@@ -147,17 +147,17 @@ test::BundleScene SceneOfWrongDepths(Rng* rng) {
   return scene;
 }
 
-TEST_P(BundleAdjusterTest, ADepthThatIsOffInEveryViewBendsLessIfItCountsOnce) {
+TEST_P(BundleAdjusterTest, ADepthThatIsOffInEveryViewBendsLessIfItIsKnownToBe) {
   double error_m[2];
-  for (const bool counts_once : {false, true}) {
+  for (const int correlation : {0, 1}) {
     Rng rng(10);
     test::BundleScene scene = SceneOfWrongDepths(&rng);
     SolveBundle({.solver = GetParam(),
                  .robust_iterations = 30,
                  .max_chi2_stereo = 1e9,
-                 .counts_depth_once = counts_once},
+                 .depth_correlation = static_cast<double>(correlation)},
                 {}, &scene.problem);
-    error_m[counts_once] = MaxPoseErrorM(scene.problem, scene.truth);
+    error_m[correlation] = MaxPoseErrorM(scene.problem, scene.truth);
   }
   EXPECT_LT(error_m[1], 0.5 * error_m[0]);
 }
@@ -170,10 +170,10 @@ TEST_P(BundleAdjusterTest, ADepthThatIsTheOnlyOneOfItsPointCountsInFull) {
     if (o.point == last_point) o.pixel.z() = -1;
     last_point = o.point;
   }
-  BundleProblem once = scene.problem, always = scene.problem;
-  SolveBundle({.solver = GetParam(), .counts_depth_once = true}, {}, &once);
-  SolveBundle({.solver = GetParam()}, {}, &always);
-  EXPECT_TRUE(AreIdentical(once, always));
+  BundleProblem correlated = scene.problem, independent = scene.problem;
+  SolveBundle({.solver = GetParam(), .depth_correlation = 0.5}, {}, &correlated);
+  SolveBundle({.solver = GetParam()}, {}, &independent);
+  EXPECT_TRUE(AreIdentical(correlated, independent));
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, BundleAdjusterTest,

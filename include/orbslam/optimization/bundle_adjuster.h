@@ -46,9 +46,10 @@ struct BundleOptions {
   /// Median squared error of a point that many poses see, over that of the median point: above, it is not one
   /// place (it moves, or is a silhouette), and none of its observations is an inlier. 0: any is.
   double max_point_error_ratio = 0;
-  /// All depths of a point together weigh as much as one: its corner lies on an edge, or the depth image is
-  /// bent there, alike in all of them, so that more of them tell no more.
-  bool counts_depth_once = false;
+  /// Correlation of the errors of a point's depths, in [0, 1]: its corner lies on an edge, or the depth image
+  /// is bent there, alike in many of them. Of n each then weighs 1 / (1 + (n - 1) correlation): with 1, all
+  /// together tell no more than one.
+  double depth_correlation = 0;
   int num_threads = 1;  // more give results that differ from run to run
 };
 
