@@ -151,6 +151,13 @@ TEST(TrajectorySmoother, APoseThatIsSurelyWrongIsNotBelieved) {
   ExpectEqual(Smoothed(poses), truth, 0.02);
 }
 
+TEST(TrajectorySmoother, TheFirstPoseAfterALossIsNoMoreBelievedThanTheNextOnes) {
+  const Poses truth = Sample(SteadyAt, 30);
+  Poses poses = truth;
+  poses[0].world_from_camera.translation.x() += 8 * kSigmaM;
+  EXPECT_LT(DistanceM(Smoothed(poses)[0], truth[0]), kSigmaM);
+}
+
 TEST(TrajectorySmoother, AFewPosesAndEqualTimesAreNoMotion) {
   for (int n = 0; n < 3; ++n) ExpectEqual(Smoothed(Sample(SwingingAt, n)), Sample(SwingingAt, n), 0);
   Poses poses = Sample(SwingingAt, 20);

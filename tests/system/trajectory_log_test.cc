@@ -124,11 +124,13 @@ class SmoothedLogTest : public TrajectoryLogTest {
 };
 
 TEST_F(SmoothedLogTest, PosesAreSmoothAsFarAsTheyAreNotKnown) {
-  for (uint32_t i = 0; i < 7; ++i) Add(i, i == 3 ? 3.4 : i, i == 3 ? 1 : 1e8);
-  EXPECT_LT(DistanceM(3, 3), 0.005);
-  EXPECT_LT(DistanceM(2, 2), 0.005);
-  smoothed_.Revise({FrameId(3), 0.3, reference_, PoseOf(3.4), 1e10 * Matrix6d::Identity(), {}});
-  EXPECT_LT(DistanceM(3, 3.4), 0.01);
+  constexpr double kStep = 0.3;  // 0.6 m/s, 0.3 rad/s: as a hand turns
+  for (uint32_t i = 0; i < 7; ++i) Add(i, kStep * i + (i == 3 ? 0.4 : 0), i == 3 ? 1 : 1e8);
+  EXPECT_LT(DistanceM(3, 3 * kStep), 0.005);
+  EXPECT_LT(DistanceM(2, 2 * kStep), 0.005);
+  const double jumped = 3 * kStep + 0.4;
+  smoothed_.Revise({FrameId(3), 0.3, reference_, PoseOf(jumped), 1e10 * Matrix6d::Identity(), {}});
+  EXPECT_LT(DistanceM(3, jumped), 0.01);
 }
 
 TEST_F(SmoothedLogTest, AKeyFramesPoseIsTheTrajectorys) {

@@ -23,8 +23,9 @@ struct MotionPrior {
 
 /// Moves each pose, within what is known of it, so that the camera accelerates as cameras do: the most likely
 /// trajectory if acceleration is white noise (Rauch, Tung and Striebel, AIAA Journal 1965; over poses:
-/// Barfoot, Tong and Sarkka, RSS 2014). What is unlikely costs linearly: jolts, and poses found with wrong
-/// matches. poses: of one motion, ascending in time. Where the numbers fail they stay as they are.
+/// Barfoot, Tong and Sarkka, RSS 2014). The more a jolt, or a pose that was found with wrong matches,
+/// differs from what is likely, the less it counts. poses: of one motion, ascending in time. Where the numbers
+/// fail they stay as they are.
 void SmoothTrajectory(const MotionPrior& prior, std::span<UncertainPose> poses);
 
 }  // namespace orbslam
