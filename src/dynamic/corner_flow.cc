@@ -51,17 +51,22 @@ bool SampleTurned(const cv::Mat1f& image, cv::Point2f centre, const cv::Matx22f&
   if (!(first.x >= 0 && first.y >= 0 && last.x < static_cast<float>(image.cols - 1) &&
         last.y < static_cast<float>(image.rows - 1)))
     return false;
-  for (int j = 0; j < size; ++j)
-    for (int i = 0; i < size; ++i) {
-      const float di = static_cast<float>(i) - kMiddle, dj = static_cast<float>(j) - kMiddle;
-      const float x = centre.x + axes(0, 0) * di + axes(0, 1) * dj;
-      const float y = centre.y + axes(1, 0) * di + axes(1, 1) * dj;
-      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);  // not negative
-      const float ax = x - static_cast<float>(x0), ay = y - static_cast<float>(y0);
-      const float *top = image[y0] + x0, *bottom = image[y0 + 1] + x0;
-      out[j * size + i] =
-          (1 - ay) * (top[0] + ax * (top[1] - top[0])) + ay * (bottom[0] + ax * (bottom[1] - bottom[0]));
-    }
+  const int stride = static_cast<int>(image.step1());
+  int offset[size * size];  // first where, then what: the former the compiler vectorises
+  float ax[size * size], ay[size * size];
+  for (int k = 0; k < size * size; ++k) {
+    const float di = static_cast<float>(k % size) - kMiddle, dj = static_cast<float>(k / size) - kMiddle;
+    const float x = centre.x + axes(0, 0) * di + axes(0, 1) * dj;
+    const float y = centre.y + axes(1, 0) * di + axes(1, 1) * dj;
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);  // not negative
+    ax[k] = x - static_cast<float>(x0), ay[k] = y - static_cast<float>(y0);
+    offset[k] = y0 * stride + x0;
+  }
+  for (int k = 0; k < size * size; ++k) {
+    const float *top = image[0] + offset[k], *bottom = top + stride;
+    out[k] = (1 - ay[k]) * (top[0] + ax[k] * (top[1] - top[0])) +
+             ay[k] * (bottom[0] + ax[k] * (bottom[1] - bottom[0]));
+  }
   return true;
 }
 
