@@ -59,7 +59,7 @@ TEST(SystemThreads, LocalizationLeavesTheMapAsItIs) {
 }
 
 TEST(SystemThreads, AnotherThreadSeesASoundMapAtAnyTime) {
-  System system = MakeSystem(kLive);
+  System system = MakeSystem(kLive, kManyFeatures);
   std::atomic<int> num_frames = 0;
   const int last = Walk().size();
   int num_looks = 0;
