@@ -21,10 +21,10 @@ BundleOptions OfKeyFrames(const LoopOptions& options) {
 // tell too little where a camera moves in an arc (15 % more).
 //
 // Measured where nearly every frame sees the same things: with 240 poses the dense solver takes a third of
-// the time of the iterative one, which creeps when much is inconsistent; with 550 it takes once and a half as
-// long.
+// the time of the iterative one, which creeps where much is inconsistent; with 550, where nothing is, once
+// and a half as long.
 BundleOptions OfManyFrames(const LoopOptions& options, size_t num_poses) {
-  constexpr size_t kFewPoses = 300;
+  constexpr size_t kFewPoses = 500;
   return {.solver = num_poses <= kFewPoses ? BundleOptions::Solver::kDenseSchur
                                            : BundleOptions::Solver::kIterativeSchur,
           .robust_iterations = options.bundle_iterations,

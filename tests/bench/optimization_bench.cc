@@ -54,6 +54,17 @@ void BM_GlobalBundle(benchmark::State& state) {
 }
 BENCHMARK(BM_GlobalBundle)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
+// As after a sequence: many frames see the same points. Arguments: 0 dense, 2 iterative; poses.
+void BM_BundleOfManyFrames(benchmark::State& state) {
+  RunBundle({.num_fixed_poses = 1,
+             .num_free_poses = static_cast<int>(state.range(1)) - 1,
+             .num_points = 2000,
+             .views_per_point = 30,
+             .outlier_share = 0.01},
+            {}, state);
+}
+BENCHMARK(BM_BundleOfManyFrames)->ArgsProduct({{0, 2}, {240, 550}})->Unit(benchmark::kMillisecond);
+
 // A drifting walk whose keyframes also know the one five before them; the last one meets the first.
 void BM_PoseGraph(benchmark::State& state) {
   Rng rng(3);

@@ -33,8 +33,8 @@ struct BundleOptions {
   enum class Solver { kDenseSchur, kSparseSchur, kIterativeSchur };
   // Measured (tests/bench/optimization_bench.cc): with 15 free poses, 2500 points and 12500 observations
   // dense takes 40 ms and sparse 48; with 300 poses, 30000 points and 150000 observations dense 2.0 s and
-  // sparse 1.5. Where more than 300 poses see the same points, the iterative one (conjugate gradients) is the
-  // faster.
+  // sparse 1.5. With more poses yet that see the same points, the iterative one (conjugate gradients) is the
+  // faster, if nearly all is consistent.
   Solver solver = Solver::kDenseSchur;
   int robust_iterations = 5;       // at most; first round: Huber loss at the chi-square gates
   int final_iterations = 10;       // at most; second round, without the outliers of the first; 0: none
