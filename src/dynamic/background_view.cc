@@ -64,7 +64,8 @@ BackgroundView RenderBackground(const GridCamera& camera, const WorkingFrame& cu
   cv::Mat1b wanted;
   cv::compare(current.depth_m, 0, wanted, cv::CMP_EQ);
   cv::dilate(wanted, wanted, ones);
-  for (const ReferenceView* reference : references) Splat(camera, current, *reference, wanted, &canvas);
+  if (cv::countNonZero(wanted) > 0)
+    for (const ReferenceView* reference : references) Splat(camera, current, *reference, wanted, &canvas);
 
   BackgroundView view;
   cv::Mat1b empty;

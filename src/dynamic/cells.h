@@ -6,7 +6,8 @@
 
 namespace orbslam {
 
-/// All elements of a continuous image, row by row. (An image's own operator()(i) looks at its layout each time.)
+/// All elements of a continuous image, row by row. (An image's own operator()(i) looks at its layout each
+/// time.)
 template <typename T>
 std::span<T> Cells(cv::Mat_<T>& image) {
   return {image[0], image.total()};
@@ -15,5 +16,8 @@ template <typename T>
 std::span<const T> Cells(const cv::Mat_<T>& image) {
   return {image[0], image.total()};
 }
+
+/// How many of the 3 x 3 cells around each are non-zero.
+cv::Mat1b CountAround(const cv::Mat1b& cells);
 
 }  // namespace orbslam

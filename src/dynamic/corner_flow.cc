@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <opencv2/features2d.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 
+#include "orbslam/features/fast_corners.h"
 #include "wide_vectors.h"
 
 namespace orbslam {
@@ -14,6 +14,14 @@ namespace {
 constexpr int kSize = 12;  // px, side of a patch
 constexpr int kPixels = kSize * kSize;
 constexpr float kHalf = 5.5f;  // from a patch's first pixel to its centre
+
+/// A wide vector, or two narrow ones; may be anywhere.
+constexpr int kLanes = 8;
+using Lanes [[gnu::vector_size(4 * kLanes), gnu::aligned(4), gnu::may_alias]] = float;
+static_assert(kPixels % kLanes == 0);
+
+const Lanes& LanesAt(const float* first) { return *reinterpret_cast<const Lanes*>(first); }
+Lanes& LanesAt(float* first) { return *reinterpret_cast<Lanes*>(first); }
 
 struct Patch {
   float value[kPixels], slope_x[kPixels], slope_y[kPixels];
@@ -62,28 +70,37 @@ bool SampleTurned(const cv::Mat1f& image, cv::Point2f centre, const cv::Matx22f&
     ax[k] = x - static_cast<float>(x0), ay[k] = y - static_cast<float>(y0);
     offset[k] = y0 * stride + x0;
   }
-  for (int k = 0; k < size * size; ++k) {
-    const float *top = image[0] + offset[k], *bottom = top + stride;
-    out[k] = (1 - ay[k]) * (top[0] + ax[k] * (top[1] - top[0])) +
-             ay[k] * (bottom[0] + ax[k] * (bottom[1] - bottom[0]));
+  static_assert(size * size % 4 == 0);
+  for (int k = 0; k < size * size; k += 4) {
+    const cv::v_int32x4 at = cv::v_load(offset + k);
+    const cv::v_float32x4 x = cv::v_load(ax + k), y = cv::v_load(ay + k);
+    cv::v_float32x4 top_left, top_right, bottom_left, bottom_right;
+    cv::v_lut_deinterleave(image[0], at, top_left, top_right);
+    cv::v_lut_deinterleave(image[0] + stride, at, bottom_left, bottom_right);
+    cv::v_store(out + k, (cv::v_setall_f32(1) - y) * (top_left + x * (top_right - top_left)) +
+                             y * (bottom_left + x * (bottom_right - bottom_left)));
   }
   return true;
 }
 
-/// Sum of term(pixel) over a patch, in as many lanes as a wide vector has: the compiler may add lanes side by
-/// side, but may not change the order of additions by itself.
-template <class Term>
-float SumOverPatch(const Term& term) {
-  constexpr int kLanes = 8;
-  static_assert(kPixels % kLanes == 0);
-  float lanes[kLanes] = {};
-  for (int j = 0; j < kPixels; j += kLanes)
-    for (int i = 0; i < kLanes; ++i) lanes[i] += term(j + i);
-  return std::accumulate(lanes, lanes + kLanes, 0.0f);
+/// The sum of eight lanes: the compiler may not change the order of additions by itself.
+float Total(const Lanes& sum) {
+  float total = 0;
+  for (int i = 0; i < kLanes; ++i) total += sum[i];
+  return total;
 }
 
-float Dot(const float (&a)[kPixels], const float (&b)[kPixels]) {
-  return SumOverPatch([&](int k) { return a[k] * b[k]; });
+/// Values and slopes by central differences of a patch from its samples, which reach one pixel farther.
+void TakeSlopes(const float* wide, Patch* patch) {
+  constexpr int kWide = kSize + 2;
+  for (int j = 0; j < kSize; ++j)
+    for (const int i : {0, kSize - kLanes}) {
+      const float* here = wide + (j + 1) * kWide + 1 + i;
+      const int k = j * kSize + i;
+      LanesAt(patch->value + k) = LanesAt(here);
+      LanesAt(patch->slope_x + k) = 0.5f * (LanesAt(here + 1) - LanesAt(here - 1));
+      LanesAt(patch->slope_y + k) = 0.5f * (LanesAt(here + kWide) - LanesAt(here - kWide));
+    }
 }
 
 /// The template at a position: values, slopes by central differences, and the inverse of their tensor.
@@ -98,17 +115,13 @@ bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, const std::optional<c
     if (!samples.Take(image, centre.x - kHalf - 1, centre.y - kHalf - 1)) return false;
     for (int k = 0; k < kWide * kWide; ++k) wide[k] = samples.At(k);
   }
-  for (int j = 0; j < kSize; ++j) {
-    const float* row = wide + (j + 1) * kWide + 1;
-    for (int i = 0; i < kSize; ++i) {
-      const int k = j * kSize + i;
-      patch->value[k] = row[i];
-      patch->slope_x[k] = 0.5f * (row[i + 1] - row[i - 1]);
-      patch->slope_y[k] = 0.5f * (row[i + kWide] - row[i - kWide]);
-    }
+  TakeSlopes(wide, patch);
+  Lanes sum_xx{}, sum_xy{}, sum_yy{};
+  for (int k = 0; k < kPixels; k += kLanes) {
+    const Lanes &x = LanesAt(patch->slope_x + k), &y = LanesAt(patch->slope_y + k);
+    sum_xx += x * x, sum_xy += x * y, sum_yy += y * y;
   }
-  const float xx = Dot(patch->slope_x, patch->slope_x), xy = Dot(patch->slope_x, patch->slope_y);
-  const float yy = Dot(patch->slope_y, patch->slope_y);
+  const float xx = Total(sum_xx), xy = Total(sum_xy), yy = Total(sum_yy);
   const float smaller = 0.5f * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy));
   if (smaller < min_texture * kPixels) return false;
   const float inverse_det = 1 / (xx * yy - xy * xy);
@@ -121,11 +134,15 @@ bool MakePatch(const cv::Mat1f& image, cv::Point2f centre, const std::optional<c
 bool Refine(const Patch& patch, const cv::Mat1f& image, int max_iterations, float min_step_px,
             cv::Point2f* position) {
   Samples<kSize, kSize> now;
-  float error[kPixels];
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     if (!now.Take(image, position->x - kHalf, position->y - kHalf)) return false;
-    for (int k = 0; k < kPixels; ++k) error[k] = patch.value[k] - now.At(k);
-    const float bx = Dot(error, patch.slope_x), by = Dot(error, patch.slope_y);
+    Lanes sum_x{}, sum_y{};
+    for (int k = 0; k < kPixels; k += kLanes) {
+      const Lanes &above = LanesAt(now.between + k), &below = LanesAt(now.between + k + kSize);
+      const Lanes error = LanesAt(patch.value + k) - (above + now.ay * (below - above));
+      sum_x += error * LanesAt(patch.slope_x + k), sum_y += error * LanesAt(patch.slope_y + k);
+    }
+    const float bx = Total(sum_x), by = Total(sum_y);
     const float dx = patch.inverse_xx * bx + patch.inverse_xy * by;
     const float dy = patch.inverse_xy * bx + patch.inverse_yy * by;
     position->x += dx, position->y += dy;
@@ -138,7 +155,10 @@ bool Refine(const Patch& patch, const cv::Mat1f& image, int max_iterations, floa
 std::optional<float> DifferenceGrey(const Patch& patch, const cv::Mat1f& image, cv::Point2f position) {
   Samples<kSize, kSize> now;
   if (!now.Take(image, position.x - kHalf, position.y - kHalf)) return {};
-  return SumOverPatch([&](int k) { return std::abs(patch.value[k] - now.At(k)); }) / kPixels;
+  Lanes sum{};
+  for (int k = 0; k < kPixels; k += kLanes)
+    for (int i = 0; i < kLanes; ++i) sum[i] += std::abs(patch.value[k + i] - now.At(k + i));
+  return Total(sum) / kPixels;
 }
 
 FlowResult TrackPatch(const std::vector<cv::Mat1f>& first, const std::vector<cv::Mat1f>& second,
@@ -175,25 +195,21 @@ ORBSLAM_WIDE_VECTORS FlowResult TrackPatchWide(const std::vector<cv::Mat1f>& fir
 }  // namespace
 
 std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const CornerOptions& options) {
-  std::vector<cv::KeyPoint> corners;
-  cv::FAST(gray, corners, options.fast_threshold, true);
-  std::vector<std::vector<const cv::KeyPoint*>> cells(options.columns * options.rows);
-  const int margin = static_cast<int>(kHalf) + 3;
-  for (const cv::KeyPoint& corner : corners) {
-    const int x = static_cast<int>(corner.pt.x), y = static_cast<int>(corner.pt.y);
-    if (x < margin || y < margin || x >= gray.cols - margin || y >= gray.rows - margin) continue;
-    cells[y * options.rows / gray.rows * options.columns + x * options.columns / gray.cols].push_back(
-        &corner);
-  }
+  FastCorners fast(options.fast_threshold, options.fast_threshold);
+  const std::vector<Corner>& corners = fast.Detect(gray, static_cast<int>(kHalf) + 3);
+  std::vector<std::vector<const Corner*>> cells(options.columns * options.rows);
+  for (const Corner& corner : corners)
+    cells[corner.y * options.rows / gray.rows * options.columns + corner.x * options.columns / gray.cols]
+        .push_back(&corner);
   std::vector<cv::Point2f> chosen;
   for (auto& cell : cells) {
     const size_t count = std::min(cell.size(), static_cast<size_t>(options.per_cell));
     std::partial_sort(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(count), cell.end(),
-                      [](const cv::KeyPoint* a, const cv::KeyPoint* b) {
-                        if (a->response != b->response) return a->response > b->response;
+                      [](const Corner* a, const Corner* b) {
+                        if (a->score != b->score) return a->score > b->score;
                         return a < b;
                       });
-    for (size_t i = 0; i < count; ++i) chosen.push_back(cell[i]->pt);
+    for (size_t i = 0; i < count; ++i) chosen.emplace_back(cell[i]->x, cell[i]->y);
   }
   return chosen;
 }

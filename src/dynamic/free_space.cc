@@ -2,7 +2,7 @@
 #include "free_space.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "cells.h"
@@ -13,8 +13,8 @@
 namespace orbslam {
 namespace {
 
-/// What a reference saw where each cell of a row falls: an interval of depths, [0, 0] where it knows none, and
-/// whether that moved.
+/// What a reference saw where each cell of a row falls: an interval of depths, [0, 0] where it knows none,
+/// and whether that moved.
 struct SeenRow {
   explicit SeenRow(int width) : nearest_m(width), farthest_m(width), moving(width) {}
   std::vector<float> nearest_m, farthest_m;
@@ -22,13 +22,12 @@ struct SeenRow {
 };
 
 void LookUp(const ReferenceView& reference, const ProjectedRow& row, SeenRow* seen) {
-  const float* nearest_m = reference.envelope.nearest_m[0];
-  const float* farthest_m = reference.envelope.farthest_m[0];
+  const cv::Vec2f* envelope_m = reference.envelope_m[0];
   const uint8_t* moving = reference.moving[0];
   for (size_t u = 0; u < row.index.size(); ++u) {
     const int somewhere = std::max(row.index[u], 0);
-    seen->nearest_m[u] = row.index[u] < 0 ? 0.f : nearest_m[somewhere];
-    seen->farthest_m[u] = farthest_m[somewhere];
+    seen->nearest_m[u] = row.index[u] < 0 ? 0.f : envelope_m[somewhere][0];
+    seen->farthest_m[u] = envelope_m[somewhere][1];
     seen->moving[u] = moving[somewhere];
   }
 }
@@ -56,42 +55,69 @@ ORBSLAM_WIDE_VECTORS void AddRowWide(const SeenRow& seen, const ProjectedRow& ro
   AddRow(seen, row, options, margin0, weight, num_free, num_static);
 }
 
-void AddVotes(const GridCamera& camera, const cv::Mat1f& depth_m, const ReferenceView& reference,
-              const FreeSpaceOptions& options, FreeSpaceVotes* votes) {
-  const float margin0 = options.margin_m + options.drift_m * static_cast<float>(reference.age_frames);
-  const auto add_row = HasWideVectors() ? AddRowWide : AddRow;
-  const auto weight = static_cast<uint8_t>(reference.half_votes);
-  ProjectedRow row(camera.width);
-  SeenRow seen(camera.width);
-  for (int v = 0; v < camera.height; ++v) {
-    ProjectRow(camera, reference.reference_from_current, v, depth_m[v], &row);
-    LookUp(reference, row, &seen);
-    add_row(seen, row, options, margin0, weight, votes->num_free[v], votes->num_static[v]);
+/// One reference's, under one of the rules.
+class RowAdder {
+ public:
+  RowAdder(const ReferenceView& reference, const SightingRules& rules, Sightings* sightings)
+      : options_(rules.options),
+        margin0_(options_.margin_m + options_.drift_m * static_cast<float>(reference.age_frames)),
+        weight_(static_cast<uint8_t>(reference.half_votes)),
+        sightings_(sightings) {}
+
+  void Add(int v, const SeenRow& seen, const ProjectedRow& row) const {
+    (HasWideVectors() ? AddRowWide : AddRow)(seen, row, options_, margin0_, weight_, sightings_->num_free[v],
+                                             sightings_->num_static[v]);
   }
-}
+
+ private:
+  FreeSpaceOptions options_;
+  float margin0_;
+  uint8_t weight_;
+  Sightings* sightings_;
+};
 
 }  // namespace
+
+std::vector<Sightings> CountSightings(const GridCamera& camera, const cv::Mat1f& depth_m,
+                                      std::span<const ReferenceView* const> references,
+                                      std::span<const SightingRules> rules) {
+  std::vector<Sightings> sightings(rules.size());
+  for (Sightings& counts : sightings)
+    counts = {cv::Mat1b(depth_m.size(), uint8_t{0}), cv::Mat1b(depth_m.size(), uint8_t{0})};
+  ProjectedRow row(camera.width);
+  SeenRow seen(camera.width);
+  for (const ReferenceView* reference : references) {
+    std::vector<RowAdder> adders;
+    for (size_t i = 0; i < rules.size(); ++i)
+      if (reference->age_frames >= rules[i].min_age_frames)
+        adders.emplace_back(*reference, rules[i], &sightings[i]);
+    for (int v = 0; v < camera.height && !adders.empty(); ++v) {
+      ProjectRow(camera, reference->reference_from_current, v, depth_m[v], &row);
+      LookUp(*reference, row, &seen);
+      for (const RowAdder& adder : adders) adder.Add(v, seen, row);
+    }
+  }
+  return sightings;
+}
 
 FreeSpaceVotes VoteOnFreeSpace(const GridCamera& camera, const cv::Mat1f& depth_m,
                                std::span<const ReferenceView* const> references,
                                const FreeSpaceOptions& options) {
-  FreeSpaceVotes votes;
-  votes.num_free = cv::Mat1b::zeros(depth_m.size());
-  votes.num_static = cv::Mat1b::zeros(depth_m.size());
-  votes.suspicious = cv::Mat1b::zeros(depth_m.size());
-  votes.confirmed_static = cv::Mat1b::zeros(depth_m.size());
-  for (const ReferenceView* reference : references)
-    AddVotes(camera, depth_m, *reference, options, &votes);
+  const SightingRules rules{options};
+  return VoteOnFreeSpace(CountSightings(camera, depth_m, references, {&rules, 1}).front(), options);
+}
 
-  cv::Mat1b candidate(depth_m.size(), uint8_t{0}), count;
+FreeSpaceVotes VoteOnFreeSpace(Sightings sightings, const FreeSpaceOptions& options) {
+  FreeSpaceVotes votes{std::move(sightings), {}, {}};
+  votes.confirmed_static = cv::Mat1b(votes.num_free.size());
+  cv::Mat1b candidate(votes.num_free.size());
   const auto num_free = Cells(votes.num_free), num_static = Cells(votes.num_static);
   const auto is_candidate = Cells(candidate), is_static = Cells(votes.confirmed_static);
   for (size_t i = 0; i < num_free.size(); ++i) {
     is_candidate[i] = 0.5f * static_cast<float>(num_free[i] - num_static[i]) >= options.min_votes;
     is_static[i] = num_free[i] == 0 && num_static[i] > 0 ? 255 : 0;
   }
-  cv::boxFilter(candidate, count, -1, {3, 3}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::compare(count, options.min_suspicious_neighbors, votes.suspicious, cv::CMP_GE);
+  cv::compare(CountAround(candidate), options.min_suspicious_neighbors, votes.suspicious, cv::CMP_GE);
   votes.suspicious.setTo(0, candidate == 0);
   return votes;
 }

@@ -44,7 +44,7 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
   judgement.segmentation = SegmentSurfaces(reducer_.grids().cell, *frame, undecided, options_.segmentation);
   const HistogramWindow window(reducer_.grids().cell, history_, *frame, options_.histogram);
   JudgeClusters(*frame, window, &judgement);
-  JudgeThings(*frame, references, &judgement);
+  JudgeThings(*frame, &judgement);
   JudgeDepthless(*frame, references, &judgement);
 
   result.fail_open_reason = FailOpenReason(judgement);
@@ -91,7 +91,12 @@ FullDetector::Judgement FullDetector::EstimateMotion(const WorkingFrame& frame, 
 
 void FullDetector::Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                         Judgement* judgement) const {
-  judgement->votes = VoteOnFreeSpace(reducer_.grids().cell, frame.depth_m, references, options_.free_space);
+  std::vector<SightingRules> rules{{options_.free_space}};
+  if (options_.whole_things.use_whole_things && judgement->motion.IsSharp())
+    rules.push_back(RootedRules(options_.whole_things));
+  std::vector<Sightings> sightings = CountSightings(reducer_.grids().cell, frame.depth_m, references, rules);
+  judgement->votes = VoteOnFreeSpace(std::move(sightings.front()), options_.free_space);
+  if (sightings.size() > 1) judgement->for_roots = std::move(sightings.back());
   if (!options_.sliding.use_sliding || !judgement->motion.IsTrusted()) return;
   for (const Flow& flow : judgement->motion.flows) {
     if (!flow.gate.IsSharp() && !flow.far_alone_rests) continue;
@@ -123,13 +128,12 @@ void FullDetector::JudgeClusters(const WorkingFrame& frame, const HistogramWindo
 }
 
 /// Blur and the rolling shutter join what is apart.
-void FullDetector::JudgeThings(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
-                               Judgement* judgement) const {
+void FullDetector::JudgeThings(const WorkingFrame& frame, Judgement* judgement) const {
   const WholeThingOptions& options = options_.whole_things;
-  if (!options.use_whole_things || !judgement->motion.IsSharp()) return;
+  if (judgement->for_roots.num_static.empty()) return;
   if (cv::countNonZero(judgement->moving) < options.min_moving_cells) return;
   const GridCamera& camera = reducer_.grids().cell;
-  const cv::Mat1b rooted = RootedCells(camera, frame.depth_m, references, options);
+  const cv::Mat1b rooted = RootedCells(judgement->for_roots);
   const cv::Mat1b hanging_on = WholeThings(camera, frame, judgement->moving, rooted, options);
   judgement->moving.setTo(255, hanging_on);
   cv::Mat1f at_least;

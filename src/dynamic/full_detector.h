@@ -33,6 +33,7 @@ class FullDetector {
     cv::Mat2f shift;     // where moving things were in the last frame
     cv::Mat1f carried;   // log-odds of the last frame, there
     FreeSpaceVotes votes;
+    Sightings for_roots;  // empty: not asked
     Segmentation segmentation;
     std::vector<ClusterVerdict> verdicts;  // of each cluster
     cv::Mat1f log_odds;                    // of each cell: it moves
@@ -47,8 +48,7 @@ class FullDetector {
   void Vote(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
             Judgement* judgement) const;
   void JudgeClusters(const WorkingFrame& frame, const HistogramWindow& window, Judgement* judgement) const;
-  void JudgeThings(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
-                   Judgement* judgement) const;
+  void JudgeThings(const WorkingFrame& frame, Judgement* judgement) const;
   void JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                       Judgement* judgement) const;
   void Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result);

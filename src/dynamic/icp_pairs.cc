@@ -17,7 +17,8 @@ constexpr int kBlock = 64;  // points that go through each step together
 struct SourceBlock {
   float x[kBlock], y[kBlock], z[kBlock];     // source frame, m
   float qx[kBlock], qy[kBlock], qz[kBlock];  // target frame, m
-  int index[kBlock];                         // cell of the target, -1: none
+  float u[kBlock], v[kBlock];                // cell of the target there
+  int index[kBlock];                         // the same as an index, -1: none
 };
 
 /// The points that met a surface; x and q as above, t: the surface's point, n: its normal.
@@ -46,8 +47,10 @@ void Project(const GridCamera& camera, const Eigen::Matrix3f& rotation, const Ei
     const float column = std::min(std::max(pu, 0.f), width), line = std::min(std::max(pv, 0.f), height);
     const bool inside =
         (z > 0) & (qz > kNearestM) & (column == pu) & (line == pv) & (pu != width) & (pv != height);
+    const int u = static_cast<int>(column), v = static_cast<int>(line);
     block->qx[k] = qx, block->qy[k] = qy, block->qz[k] = qz;
-    block->index[k] = inside ? static_cast<int>(line) * columns + static_cast<int>(column) : -1;
+    block->u[k] = static_cast<float>(u), block->v[k] = static_cast<float>(v);
+    block->index[k] = inside ? v * columns + u : -1;
   }
 }
 
@@ -64,8 +67,8 @@ int Meet(const GridCamera& camera, const SourceBlock& block, const IcpTarget& ta
     const float tz = depth_m[at];
     pairs->x[count] = block.x[k], pairs->y[count] = block.y[k], pairs->z[count] = block.z[k];
     pairs->qx[count] = block.qx[k], pairs->qy[count] = block.qy[k], pairs->qz[count] = block.qz[k];
-    pairs->tx[count] = (static_cast<float>(at % camera.width) - camera.cx) * inverse_fx * tz;
-    pairs->ty[count] = (static_cast<float>(at / camera.width) - camera.cy) * inverse_fy * tz;
+    pairs->tx[count] = (block.u[k] - camera.cx) * inverse_fx * tz;
+    pairs->ty[count] = (block.v[k] - camera.cy) * inverse_fy * tz;
     pairs->tz[count] = tz;
     pairs->nx[count] = normal_x[at], pairs->ny[count] = normal_y[at], pairs->nz[count] = normal_z[at];
     ++count;

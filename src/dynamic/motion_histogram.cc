@@ -62,9 +62,11 @@ void FillRow(const HistogramCloud& cloud, const Capsule& capsule, float first_m,
              float* bins) {
   const float squared_radius = capsule.radius * capsule.radius;
   const float per_bin = 1.0F / bin_m;
-  for (const HistogramCloud::Block& block : cloud.blocks()) {
-    const float limit = capsule.radius + block.radius_m;
-    if (capsule.SquaredDistance(block.centre_m) > limit * limit) continue;
+  for (size_t b = 0; b < cloud.blocks().size(); ++b) {
+    const HistogramCloud::Sphere& sphere = cloud.spheres()[b];
+    const float limit = capsule.radius + sphere.radius_m;
+    if (capsule.SquaredDistance(sphere.centre_m) > limit * limit) continue;
+    const HistogramCloud::Block& block = cloud.blocks()[b];
     const Placement placement(block, capsule);
     for (int i = 0; i < HistogramCloud::Block::kSize; ++i) {
       if (placement.squared_distance[i] > squared_radius) continue;
@@ -85,16 +87,15 @@ void Append(const Eigen::Vector3f& point_m, float weight, int index, HistogramCl
   block->weight[index] = weight;
 }
 
-void Enclose(HistogramCloud::Block* block) {
+HistogramCloud::Sphere Enclose(const HistogramCloud::Block& block) {
   using Axis = Eigen::Map<const Eigen::Array<float, HistogramCloud::Block::kSize, 1>>;
-  const Axis x(block->x_m.data());
-  const Axis y(block->y_m.data());
-  const Axis z(block->z_m.data());
+  const Axis x(block.x_m.data());
+  const Axis y(block.y_m.data());
+  const Axis z(block.z_m.data());
   const Eigen::Vector3f low(x.minCoeff(), y.minCoeff(), z.minCoeff());
   const Eigen::Vector3f high(x.maxCoeff(), y.maxCoeff(), z.maxCoeff());
-  block->centre_m = 0.5F * (low + high);
   // A hair more, so that rounding never loses a point on the sphere.
-  block->radius_m = 0.5F * (high - low).norm() + 1e-5F;
+  return {0.5F * (low + high), 0.5F * (high - low).norm() + 1e-5F};
 }
 
 }  // namespace
@@ -116,7 +117,8 @@ HistogramCloud::HistogramCloud(std::span<const Eigen::Vector3f> points_m, std::s
     const Block& last = blocks_.back();
     Append({last.x_m[0], last.y_m[0], last.z_m[0]}, 0, filled, &blocks_.back());
   }
-  for (Block& block : blocks_) Enclose(&block);
+  spheres_.reserve(blocks_.size());
+  for (const Block& block : blocks_) spheres_.push_back(Enclose(block));
 }
 
 double SurfaceWeight(std::span<const Eigen::Vector3f> points_m) {

@@ -19,20 +19,37 @@ struct Plane {
   float distance_m;
 };
 
+bool IsOn(const Plane& plane, float ray_x, float ray_y, float depth_m, float noise_m) {
+  const float slope = plane.normal.dot(Eigen::Vector3f(ray_x, ray_y, 1.f));
+  return (std::abs(slope) >= kMinRayCos) &
+         (std::abs(slope * depth_m - plane.distance_m) < noise_m * std::abs(slope) + kFlatM);
+}
+
+/// Cells of a cluster, spread evenly; structure of arrays, for vectors.
+struct Sample {
+  std::vector<float> ray_x, ray_y, depth_m, noise_m;
+
+  int NumOn(const Plane& plane) const {
+    int count = 0;
+    for (size_t k = 0; k < depth_m.size(); ++k)
+      count += IsOn(plane, ray_x[k], ray_y[k], depth_m[k], noise_m[k]);
+    return count;
+  }
+};
+
 class ClusterPlanes {
  public:
   ClusterPlanes(const GridCamera& camera, const WorkingFrame& frame) : camera_(camera), frame_(frame) {}
 
   /// The cells on the plane that holds most of them; empty if that is smaller than min_area_m2.
   std::vector<int> Largest(const std::vector<int>& cells, float min_area_m2) const {
-    const size_t step = std::max<size_t>(1, cells.size() / kCountedCells);
+    const Sample sample = SampleOf(cells);
     Plane best{Eigen::Vector3f::Zero(), 0.f};
     int most = 0;
     for (int i = 0; i < kCandidates; ++i) {
       const int cell = cells[cells.size() * i / kCandidates];
       const Plane plane{Normal(cell), Normal(cell).dot(Ray(cell)) * frame_.depth_m(cell)};
-      int count = 0;
-      for (size_t k = 0; k < cells.size(); k += step) count += IsOn(cells[k], plane);
+      const int count = sample.NumOn(plane);
       if (count > most) most = count, best = plane;
     }
     std::vector<int> on_plane;
@@ -57,10 +74,22 @@ class ClusterPlanes {
     return {frame_.normal_x(cell), frame_.normal_y(cell), frame_.normal_z(cell)};
   }
 
+  Sample SampleOf(const std::vector<int>& cells) const {
+    Sample sample;
+    const size_t step = std::max<size_t>(1, cells.size() / kCountedCells);
+    for (size_t k = 0; k < cells.size(); k += step) {
+      const Eigen::Vector3f ray = Ray(cells[k]);
+      const float z = frame_.depth_m(cells[k]);
+      sample.ray_x.push_back(ray.x()), sample.ray_y.push_back(ray.y());
+      sample.depth_m.push_back(z), sample.noise_m.push_back(kGateSigma * DepthSigmaM(z));
+    }
+    return sample;
+  }
+
   bool IsOn(int cell, const Plane& plane) const {
-    const float z = frame_.depth_m(cell), slope = plane.normal.dot(Ray(cell));
-    if (std::abs(slope) < kMinRayCos) return false;
-    return std::abs(slope * z - plane.distance_m) < kGateSigma * DepthSigmaM(z) * std::abs(slope) + kFlatM;
+    const Eigen::Vector3f ray = Ray(cell);
+    const float z = frame_.depth_m(cell);
+    return orbslam::IsOn(plane, ray.x(), ray.y(), z, kGateSigma * DepthSigmaM(z));
   }
 
   float AreaM2(int cell, const Plane& plane) const {

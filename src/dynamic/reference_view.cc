@@ -2,8 +2,11 @@
 #include "reference_view.h"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "cells.h"
 
 namespace orbslam {
 namespace {
@@ -13,20 +16,17 @@ constexpr int kMinMeasured = 6;
 
 }  // namespace
 
-DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m) {
+cv::Mat2f MakeEnvelope(const cv::Mat1f& depth_m) {
   cv::Mat1b measured;  // 255 or 0
   cv::compare(depth_m, 0, measured, cv::CMP_GT);
   cv::Mat1f or_far = depth_m.clone();
   or_far.setTo(kFar, ~measured);
-  DepthEnvelope envelope;
-  cv::erode(or_far, envelope.nearest_m, cv::Mat::ones(3, 3, CV_8U));
-  cv::dilate(depth_m, envelope.farthest_m, cv::Mat::ones(3, 3, CV_8U));
-  cv::Mat1f count;
-  cv::boxFilter(measured, count, CV_32F, {3, 3}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::Mat1b thin;
-  cv::compare(count, 255.0 * kMinMeasured, thin, cv::CMP_LT);
-  envelope.nearest_m.setTo(0, thin);
-  envelope.farthest_m.setTo(0, thin);
+  std::array<cv::Mat, 2> nearest_and_farthest_m;
+  cv::erode(or_far, nearest_and_farthest_m[0], cv::Mat::ones(3, 3, CV_8U));
+  cv::dilate(depth_m, nearest_and_farthest_m[1], cv::Mat::ones(3, 3, CV_8U));
+  cv::Mat2f envelope;
+  cv::merge(nearest_and_farthest_m, envelope);
+  envelope.setTo(cv::Scalar::all(0), CountAround(measured) < kMinMeasured);
   return envelope;
 }
 

@@ -10,12 +10,9 @@
 
 namespace orbslam {
 
-/// Nearest and farthest depth in the 3 x 3 cells around each; 0: under 6 of the 9 are measured. What lies
-/// before nearest stands in space that was seen empty.
-struct DepthEnvelope {
-  cv::Mat1f nearest_m, farthest_m;
-};
-DepthEnvelope MakeEnvelope(const cv::Mat1f& depth_m);
+/// Nearest and farthest depth (m) in the 3 x 3 cells around each; 0, 0: under 6 of the 9 are measured. What
+/// lies before the nearest stands in space that was seen empty.
+cv::Mat2f MakeEnvelope(const cv::Mat1f& depth_m);
 
 /// Depth everywhere: a hole gets the mean of what is known around it, at the finest scale that knows anything
 /// (pull-push; Gortler et al., The Lumigraph, 1996).
@@ -24,7 +21,7 @@ cv::Mat1f FillHoles(const cv::Mat1f& depth_m);
 /// A frame of the past, and where it was from the present one.
 struct ReferenceView {
   std::shared_ptr<const WorkingFrame> frame;
-  DepthEnvelope envelope;
+  cv::Mat2f envelope_m;
   cv::Mat1f filled_depth_m;              // what has no depth, a monitor say, still looks like something
   cv::Mat1b moving;                      // cells that were masked then
   Rigid3d reference_from_current;        // of the depth images

@@ -95,7 +95,7 @@ std::vector<const ReferenceView*> SceneHistory::FreeSpaceReferences() const {
 void SceneHistory::Add(std::shared_ptr<const WorkingFrame> frame, const cv::Mat1b& moving,
                        std::shared_ptr<const HistogramCloud> cloud) {
   ReferenceView view;
-  view.envelope = MakeEnvelope(frame->depth_m);
+  view.envelope_m = MakeEnvelope(frame->depth_m);
   view.filled_depth_m = FillHoles(frame->depth_m);
   view.frame = std::move(frame);
   view.moving = moving;

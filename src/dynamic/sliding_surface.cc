@@ -43,12 +43,16 @@ cv::Mat1b SlidingCells(const cv::Mat1f& depth_m, const Flow& flow, const Sliding
   cv::copyMakeBorder(depth_m, framed_m, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
   cv::Mat1b state(framed_m.size(), kUnreached);
   std::vector<int> front, next;
+  bool any_slides = false;
   for (const TrackedCorner& corner : flow.corners) {
     const cv::Point cell = CellOf(corner) + inside.tl();
     if (!(corner.depth_m > 0) || !inside.contains(cell) || state(cell) != kUnreached) continue;
-    state(cell) = MovesWithNeighbors(corner, flow, options) ? kSliding : kResting;
+    const bool is_sliding = MovesWithNeighbors(corner, flow, options);
+    any_slides = any_slides || is_sliding;
+    state(cell) = is_sliding ? kSliding : kResting;
     front.push_back(cell.y * state.cols + cell.x);
   }
+  if (!any_slides) return cv::Mat1b(depth_m.size(), uint8_t{0});
   // From all corners at once: each cell follows the nearest one of its own surface.
   const auto z_m = Cells(framed_m);
   const auto states = Cells(state);
@@ -56,10 +60,9 @@ cv::Mat1b SlidingCells(const cv::Mat1f& depth_m, const Flow& flow, const Sliding
     next.clear();
     for (const int cell : front)
       for (const int neighbor : {cell + 1, cell - 1, cell + state.cols, cell - state.cols}) {
+        if (states[neighbor] != kUnreached) continue;
         const float nearer_m = std::min(z_m[cell], z_m[neighbor]);
-        if (states[neighbor] != kUnreached || !(nearer_m > 0) ||
-            std::abs(z_m[cell] - z_m[neighbor]) > MaxSurfaceStepM(nearer_m))
-          continue;
+        if (!(nearer_m > 0) || std::abs(z_m[cell] - z_m[neighbor]) > MaxSurfaceStepM(nearer_m)) continue;
         states[neighbor] = states[cell];
         next.push_back(neighbor);
       }

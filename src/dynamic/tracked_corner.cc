@@ -34,7 +34,7 @@ void SetDepth(const ReferenceView& earlier, Baseline baseline, TrackedCorner* co
   corner->depth_m = corner->nearest_m = corner->farthest_m = earlier.frame->depth_m(v, u);
   if (!(corner->depth_m > 0)) corner->nearest_m = kNearM, corner->farthest_m = kFarM;
   if (baseline == Baseline::kShort || !(corner->depth_m > 0)) return;
-  const float nearest_m = earlier.envelope.nearest_m(v, u), farthest_m = earlier.envelope.farthest_m(v, u);
+  const float nearest_m = earlier.envelope_m(v, u)[0], farthest_m = earlier.envelope_m(v, u)[1];
   if (!(nearest_m > 0))
     corner->nearest_m = kNearM, corner->farthest_m = kFarM;
   else if (farthest_m - nearest_m > MaxSurfaceStepM(nearest_m))

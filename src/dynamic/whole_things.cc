@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -78,19 +77,17 @@ class Thing {
 
 }  // namespace
 
-cv::Mat1b RootedCells(const GridCamera& camera, const cv::Mat1f& depth_m,
-                      std::span<const ReferenceView* const> references, const WholeThingOptions& options) {
-  std::vector<const ReferenceView*> older;
-  std::ranges::copy_if(references, std::back_inserter(older), [&](const ReferenceView* reference) {
-    return reference->age_frames >= options.min_age_frames;
-  });
-  FreeSpaceOptions exact;
-  exact.gate_sigma = options.gate_sigma, exact.margin_m = options.margin_m;
-  exact.margin_per_metre = exact.drift_m = 0;
-  const FreeSpaceVotes votes = VoteOnFreeSpace(camera, depth_m, older, exact);
-  cv::Mat1b rooted(depth_m.size(), uint8_t{0});
+SightingRules RootedRules(const WholeThingOptions& options) {
+  SightingRules rules{{}, options.min_age_frames};
+  rules.options.gate_sigma = options.gate_sigma, rules.options.margin_m = options.margin_m;
+  rules.options.margin_per_metre = rules.options.drift_m = 0;
+  return rules;
+}
+
+cv::Mat1b RootedCells(const Sightings& sightings) {
+  cv::Mat1b rooted(sightings.num_static.size(), uint8_t{0});
   const auto is_rooted = Cells(rooted);
-  const auto num_static = Cells(votes.num_static), num_free = Cells(votes.num_free);
+  const auto num_static = Cells(sightings.num_static), num_free = Cells(sightings.num_free);
   for (size_t i = 0; i < is_rooted.size(); ++i)  // free votes are halves: twice as many saw it there
     is_rooted[i] = num_static[i] > 0 && num_static[i] >= num_free[i] ? 255 : 0;
   return rooted;

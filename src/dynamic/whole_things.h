@@ -2,7 +2,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <span>
 
 #include "free_space.h"
 #include "orbslam/dynamic/dynamic_detector_options.h"
@@ -10,10 +9,12 @@
 
 namespace orbslam {
 
-/// Cells (non-zero) that references of some age saw just where they are now, and hardly any saw through: far
-/// longer and more exactly than somebody who sways holds still.
-cv::Mat1b RootedCells(const GridCamera& camera, const cv::Mat1f& depth_m,
-                      std::span<const ReferenceView* const> references, const WholeThingOptions& options);
+/// Of references of some age, and under a narrow gate.
+SightingRules RootedRules(const WholeThingOptions& options);
+
+/// Cells (non-zero) that these saw just where they are now, and hardly any saw through: far longer and more
+/// exactly than somebody who sways holds still.
+cv::Mat1b RootedCells(const Sightings& sightings);
 
 /// Things move as wholes: whose hands move while his back seems to rest is about to move his back. A thing is
 /// what hangs together once furniture, which is flat, and what is rooted are taken away, as a table is from

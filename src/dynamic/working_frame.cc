@@ -2,6 +2,7 @@
 #include "working_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
@@ -63,6 +64,36 @@ BlockSums SumBlock(const float* corner, size_t stride, int step) {
   return all;
 }
 
+constexpr int kBlocks = 4;  // that are looked at together
+
+/// The mean of each block of 4 x 4 pixels that are all measured and on one surface, as most are; else 0.
+void MeansOfSurfaces(const std::array<const float*, kBlocks>& corners, size_t stride, float* means_m) {
+  std::array<cv::v_float32x4, kBlocks> sum, lowest, highest;  // of a block, by columns
+  for (int i = 0; i < kBlocks; ++i) {
+    const float* corner = corners[i];
+    const cv::v_float32x4 a = cv::v_load(corner), b = cv::v_load(corner + stride),
+                          c = cv::v_load(corner + 2 * stride), d = cv::v_load(corner + 3 * stride);
+    sum[i] = a + b + c + d;
+    lowest[i] = cv::v_min(cv::v_min(a, b), cv::v_min(c, d));
+    highest[i] = cv::v_max(cv::v_max(a, b), cv::v_max(c, d));
+  }
+  const auto of_blocks = [](const std::array<cv::v_float32x4, kBlocks>& x, const auto& join) {
+    cv::v_float32x4 a, b, c, d;
+    cv::v_transpose4x4(x[0], x[1], x[2], x[3], a, b, c, d);
+    return join(join(a, c), join(b, d));
+  };
+  const cv::v_float32x4 sum_m = of_blocks(sum, [](const auto& a, const auto& b) { return a + b; });
+  const cv::v_float32x4 lowest_m =
+      of_blocks(lowest, [](const auto& a, const auto& b) { return cv::v_min(a, b); });
+  const cv::v_float32x4 highest_m =
+      of_blocks(highest, [](const auto& a, const auto& b) { return cv::v_max(a, b); });
+  const cv::v_float32x4 max_step_m =
+      cv::v_setall_f32(kSurfaceStepM) + cv::v_setall_f32(kSurfaceStepPerM) * lowest_m * lowest_m;
+  const cv::v_float32x4 is_one = (lowest_m > cv::v_setzero_f32()) & (highest_m - lowest_m < max_step_m) &
+                                 (sum_m < cv::v_setall_f32(kNone));  // which does not hold if one is NaN
+  cv::v_store(means_m, sum_m * cv::v_setall_f32(1.f / 16) & is_one);
+}
+
 /// The depth of a block of raw pixels: the mean of its larger group, if a depth edge splits it.
 float BlockDepth(const float* corner, size_t stride, int step) {
   const BlockSums all = SumBlock(corner, stride, step);
@@ -119,6 +150,9 @@ FrameReducer::FrameReducer(const PinholeCamera& camera, const CornerOptions& cor
     raw_to_cell_(static_cast<int>(i) / camera.width, static_cast<int>(i) % camera.width) =
         v * grids_.cell.width + u;
   }
+  for (int v = 0; v < camera.height; ++v)
+    is_like_above_.push_back(
+        v > 0 && std::equal(raw_to_cell_[v], raw_to_cell_[v] + camera.width, raw_to_cell_[v - 1]));
 
   if (!camera.IsDistorted()) return;
   cv::Mat2f map(grids_.gray.height, grids_.gray.width);
@@ -158,13 +192,22 @@ WorkingFrame FrameReducer::Reduce(const RgbdImage& image) const {
 }
 
 cv::Mat1f FrameReducer::ReduceDepth(const cv::Mat1f& raw) const {
-  cv::Mat1f cells(cell_corner_.size());
+  cv::Mat1f cells(cell_corner_.size(), 0.f);
   const size_t stride = raw.step1();
-  for (int v = 0; v < cells.rows; ++v)
+  const int step = grids_.cell_step;
+  for (int v = 0; v < cells.rows; ++v) {
+    const cv::Point* corners = cell_corner_[v];
+    const auto block = [&](int u) { return raw[corners[u].y] + std::max(corners[u].x, 0); };
+    float* out = cells[v];
+    for (int u = 0; step == 4 && u + kBlocks <= cells.cols; u += kBlocks)
+      MeansOfSurfaces({block(u), block(u + 1), block(u + 2), block(u + 3)}, stride, out + u);
     for (int u = 0; u < cells.cols; ++u) {
-      const cv::Point corner = cell_corner_(v, u);
-      cells(v, u) = corner.x < 0 ? 0.f : BlockDepth(raw[corner.y] + corner.x, stride, grids_.cell_step);
+      if (corners[u].x < 0)
+        out[u] = 0;
+      else if (!(out[u] > 0))
+        out[u] = BlockDepth(block(u), stride, step);
     }
+  }
   return cells;
 }
 
@@ -174,6 +217,10 @@ cv::Mat1b FrameReducer::ToRawMask(const cv::Mat1b& cell_mask) const {
   for (int v = 0; v < raw.rows; ++v) {
     const int* index = raw_to_cell_[v];
     uint8_t* out = raw[v];
+    if (is_like_above_[v]) {
+      std::copy_n(raw[v - 1], raw.cols, out);
+      continue;
+    }
     for (int u = 0; u < raw.cols; ++u) out[u] = cells[index[u]] != 0 ? 255 : 0;
   }
   return raw;

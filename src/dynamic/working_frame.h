@@ -59,10 +59,12 @@ class FrameReducer {
   cv::Mat gray_map_, gray_map_fraction_;  // for cv::remap, of the undistorted grey grid into the halved image
   cv::Mat_<cv::Point> cell_corner_;       // raw pixel at a cell's top left; x = -1: outside
   cv::Mat1i raw_to_cell_;                 // cell index of each raw pixel; nearest one where there is none
+  std::vector<bool> is_like_above_;       // a row of that; free of distortion, most are
 };
 
 /// Largest step in depth, metres, between neighbouring cells of one surface: 3 sigma of the sensor's noise
 /// at both ends, and a surface seen at 75 degrees.
-inline float MaxSurfaceStepM(float depth_m) { return 0.02f + 0.012f * depth_m * depth_m; }
+constexpr float kSurfaceStepM = 0.02f, kSurfaceStepPerM = 0.012f;  // of depth squared
+inline float MaxSurfaceStepM(float depth_m) { return kSurfaceStepM + kSurfaceStepPerM * depth_m * depth_m; }
 
 }  // namespace orbslam

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fast_corners.h"
+#include "orbslam/features/fast_corners.h"
 
 #include <algorithm>
 #include <array>
 
 #include "cpu.h"
+#include "fast_kernel.h"
 #include "orbslam/util/check.h"
 
 namespace orbslam {

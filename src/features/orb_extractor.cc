@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fast_corners.h"
+#include "orbslam/features/fast_corners.h"
 #include "orbslam/features/scale_pyramid.h"
 #include "orbslam/util/check.h"
 #include "orientation.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fast_corners.h"
+#include "orbslam/features/fast_corners.h"
 
 namespace orbslam {
 

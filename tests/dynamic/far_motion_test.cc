@@ -23,7 +23,7 @@ class FarMotionTest : public testing::Test {
 
   void See(const RoomBox& before, const RoomBox& now) {
     earlier_.frame = Frame(0, {}, before);
-    earlier_.envelope = MakeEnvelope(earlier_.frame->depth_m);
+    earlier_.envelope_m = MakeEnvelope(earlier_.frame->depth_m);
     earlier_.moving = cv::Mat1b(earlier_.frame->depth_m.size(), uint8_t{0});
     current_ = Frame(1, Inverse(truth_), now);
     matches_ = RestingMatches(

@@ -27,7 +27,7 @@ ReferenceView Reference(const cv::Mat1f& depth) {
   auto frame = std::make_shared<WorkingFrame>();
   frame->depth_m = depth;
   ReferenceView view;
-  view.frame = frame, view.envelope = MakeEnvelope(depth), view.moving = cv::Mat1b::zeros(depth.size());
+  view.frame = frame, view.envelope_m = MakeEnvelope(depth), view.moving = cv::Mat1b::zeros(depth.size());
   return view;
 }
 

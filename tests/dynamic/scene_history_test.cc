@@ -29,7 +29,7 @@ std::shared_ptr<const WorkingFrame> Frame(float thing_m, uint64_t seed, const cv
 
 ReferenceView View(std::shared_ptr<const WorkingFrame> frame) {
   ReferenceView view;
-  view.envelope = MakeEnvelope(frame->depth_m);
+  view.envelope_m = MakeEnvelope(frame->depth_m);
   view.moving = cv::Mat1b::zeros(frame->depth_m.size());
   view.frame = std::move(frame);
   return view;

@@ -118,7 +118,7 @@ class RootedCellsTest : public testing::Test {
     auto frame = std::make_shared<WorkingFrame>();
     frame->depth_m = cv::Mat1f(kCells, depth_m);
     auto view = std::make_unique<ReferenceView>();
-    view->envelope = MakeEnvelope(frame->depth_m);
+    view->envelope_m = MakeEnvelope(frame->depth_m);
     view->moving = cv::Mat1b(kCells, moving);
     view->frame = std::move(frame);
     view->age_frames = age_frames;
@@ -128,7 +128,9 @@ class RootedCellsTest : public testing::Test {
 
   static bool IsRooted(const std::vector<const ReferenceView*>& views) {
     // At the corners fewer than six of nine neighbours are measured.
-    const int count = cv::countNonZero(RootedCells(kCellCamera, cv::Mat1f(kCells, 1.5f), views, {}));
+    const SightingRules rules = RootedRules({});
+    const int count = cv::countNonZero(
+        RootedCells(CountSightings(kCellCamera, cv::Mat1f(kCells, 1.5f), views, {&rules, 1}).front()));
     EXPECT_TRUE(count == 0 || count > kCells.area() - 10) << count;
     return count > 0;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fast_corners.h"
+#include "orbslam/features/fast_corners.h"
 
 #include <gtest/gtest.h>
 

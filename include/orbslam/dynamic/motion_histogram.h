@@ -30,13 +30,19 @@ class HistogramCloud {
   struct Block {
     static constexpr int kSize = 16;
     std::array<float, kSize> x_m, y_m, z_m, weight;
-    Eigen::Vector3f centre_m;  // of a sphere round the points
-    float radius_m;
   };
   std::span<const Block> blocks() const { return blocks_; }
 
+  /// Round the points of each block; apart from these, so that those passed over stay out of the cache.
+  struct Sphere {
+    Eigen::Vector3f centre_m;
+    float radius_m;
+  };
+  std::span<const Sphere> spheres() const { return spheres_; }
+
  private:
   std::vector<Block> blocks_;
+  std::vector<Sphere> spheres_;
 };
 
 /// Sum of z^2 of the points: S_p in the units of an unweighted HistogramCloud.

@@ -5,9 +5,9 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "fast_kernel.h"
-
 namespace orbslam {
+
+struct FastKernel;  // the inner loops for one instruction set
 
 struct Corner {
   int16_t x = 0, y = 0;  // px
