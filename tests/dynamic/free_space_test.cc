@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <iterator>
+#include <vector>
+
 #include "background_view.h"
 #include "orbslam/camera/depth_model.h"
 #include "orbslam/util/random.h"
@@ -82,6 +85,27 @@ TEST(FreeSpace, OneBentViewIsNotBelievedWhenItSeesThroughButTwoAre) {
   EXPECT_GT(Share(Vote(now, bent).confirmed_static, cv::Rect(5, 5, 150, 30)), 0.99);
   const ReferenceView* both[] = {&bent, &bent};
   EXPECT_GT(Share(VoteOnFreeSpace(kCamera, now, both, {}).suspicious, inside), 0.99);
+}
+
+TEST(FreeSpace, RulesCountedTogetherCountAsEachAlone) {
+  ReferenceView with_it = Reference(Depth(2.5f, 1.5f, 1)), without = Reference(Depth(2.5f, 0, 2));
+  with_it.age_frames = 5, without.age_frames = 20;
+  with_it.reference_from_current.translation.x() = 0.02;
+  const ReferenceView* references[] = {&with_it, &without};
+  const cv::Mat1f now = Depth(2.5f, 1.5f, 3);
+  const SightingRules rules[] = {{{}}, {{.gate_sigma = 1.f, .margin_m = 0}}, {{}, 10}, {{}, 30}};
+  const std::vector<Sightings> together = CountSightings(kCamera, now, references, rules);
+  ASSERT_EQ(together.size(), std::size(rules));
+  for (size_t i = 0; i < together.size(); ++i) {
+    const Sightings alone = CountSightings(kCamera, now, references, {&rules[i], 1}).front();
+    EXPECT_EQ(cv::countNonZero(together[i].num_free != alone.num_free), 0) << i;
+    EXPECT_EQ(cv::countNonZero(together[i].num_static != alone.num_static), 0) << i;
+  }
+  const cv::Point middle(kThing.x + kThing.width / 2, kThing.y + kThing.height / 2);
+  EXPECT_EQ(together[0].num_static(middle), 1);  // who is five frames old saw it there, ...
+  EXPECT_EQ(together[2].num_static(middle), 0);
+  EXPECT_EQ(together[2].num_free(middle), 2);  // ... who is twenty saw through
+  EXPECT_EQ(together[3].num_free(middle), 0);
 }
 
 TEST(FreeSpace, FollowsTheCamera) {
