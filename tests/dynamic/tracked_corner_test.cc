@@ -21,7 +21,7 @@ class TrackedCornerTest : public testing::Test {
                      const Rigid3d& world_from_current) const {
     ReferenceView view;
     view.frame = Frame(0, world_from_camera, boxes);
-    view.envelope = MakeEnvelope(view.frame->depth_m);
+    view.envelope_m = MakeEnvelope(view.frame->depth_m);
     view.moving = cv::Mat1b(view.frame->depth_m.size(), uint8_t{0});
     view.reference_from_current = view.color_reference_from_current =
         Inverse(world_from_camera) * world_from_current;
