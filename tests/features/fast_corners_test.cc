@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "fast_kernel.h"
 #include "test_images.h"
 
 namespace orbslam {
