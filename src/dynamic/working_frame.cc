@@ -66,7 +66,8 @@ BlockSums SumBlock(const float* corner, size_t stride, int step) {
 
 constexpr int kBlocks = 4;  // that are looked at together
 
-/// The mean of each block of 4 x 4 pixels that are all measured and on one surface, as most are; else 0.
+/// The mean of each block of 4 x 4 pixels that are all measured and on one surface, as most are; else 0, or
+/// NaN if one of them is.
 void MeansOfSurfaces(const std::array<const float*, kBlocks>& corners, size_t stride, float* means_m) {
   std::array<cv::v_float32x4, kBlocks> sum, lowest, highest;  // of a block, by columns
   for (int i = 0; i < kBlocks; ++i) {
@@ -89,8 +90,7 @@ void MeansOfSurfaces(const std::array<const float*, kBlocks>& corners, size_t st
       of_blocks(highest, [](const auto& a, const auto& b) { return cv::v_max(a, b); });
   const cv::v_float32x4 max_step_m =
       cv::v_setall_f32(kSurfaceStepM) + cv::v_setall_f32(kSurfaceStepPerM) * lowest_m * lowest_m;
-  const cv::v_float32x4 is_one = (lowest_m > cv::v_setzero_f32()) & (highest_m - lowest_m < max_step_m) &
-                                 (sum_m < cv::v_setall_f32(kNone));  // which does not hold if one is NaN
+  const cv::v_float32x4 is_one = (lowest_m > cv::v_setzero_f32()) & (highest_m - lowest_m < max_step_m);
   cv::v_store(means_m, sum_m * cv::v_setall_f32(1.f / 16) & is_one);
 }
 

@@ -71,6 +71,26 @@ TEST_P(EveryWidth, CellShowsTheMeanOfItsLargerSurface) {
   EXPECT_EQ(frame.num_depth_cells, static_cast<int>(frame.depth_m.total()) - num_empty);
 }
 
+/// A step in depth, down the picture or across.
+TEST(WorkingFrameNormals, FaceTheCameraAndEndTwoCellsBeforeAnEdge) {
+  const PinholeCamera camera = CameraOfWidth(640);
+  for (const bool is_across : {false, true}) {
+    cv::Mat1f depth_m(camera.height, camera.width, 1.5f);
+    const cv::Size half(is_across ? camera.width / 2 : camera.width,
+                        is_across ? camera.height : camera.height / 2);
+    depth_m(cv::Rect({0, 0}, half)).setTo(2.5f);
+    const WorkingFrame frame = Reduce(camera, depth_m);
+    for (int v = 2; v < frame.depth_m.rows - 2; ++v)
+      for (int u = 2; u < frame.depth_m.cols - 2; ++u) {
+        const int past_edge = is_across ? u - frame.depth_m.cols / 2 : v - frame.depth_m.rows / 2;
+        const float expected = past_edge >= -2 && past_edge < 2 ? 0.f : -1.f;
+        ASSERT_NEAR(frame.normal_z(v, u), expected, 1e-6) << u << " " << v;
+        ASSERT_NEAR(frame.normal_x(v, u), 0, 1e-6) << u << " " << v;
+        ASSERT_NEAR(frame.normal_y(v, u), 0, 1e-6) << u << " " << v;
+      }
+  }
+}
+
 TEST_P(EveryWidth, MaskOfCellsCoversTheirPixels) {
   const PinholeCamera camera = CameraOfWidth(GetParam());
   const FrameReducer reducer(camera);
