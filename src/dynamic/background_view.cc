@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "cells.h"
 #include "projection.h"
@@ -19,16 +20,18 @@ struct Canvas {
 /// Ratio of exposures, current over reference, from the cells where the two see the same surface.
 float ExposureRatio(const GridCamera& camera, const WorkingFrame& current, const ReferenceView& reference) {
   constexpr int kStride = 8;  // rows; 2400 cells of 19200
+  const auto moving = Cells(reference.moving);
+  const auto depth_m = Cells(reference.frame->depth_m), gray = Cells(reference.frame->pyramid[1]);
   ProjectedRow row(camera.width);
   double now = 1, then = 1;
   for (int v = kStride / 2; v < camera.height; v += kStride) {
     ProjectRow(camera, reference.reference_from_current, v, current.depth_m[v], &row);
+    const float* gray_now = current.pyramid[1][v];
     for (int u = 0; u < camera.width; ++u) {
       const int index = row.index[u];
-      if (index < 0 || reference.moving(index) != 0) continue;
-      if (std::abs(reference.frame->depth_m(index) - row.depth_m[u]) > MaxSurfaceStepM(row.depth_m[u]))
-        continue;
-      now += current.pyramid[1](v, u), then += reference.frame->pyramid[1](index);
+      if (index < 0 || moving[index] != 0) continue;
+      if (std::abs(depth_m[index] - row.depth_m[u]) > MaxSurfaceStepM(row.depth_m[u])) continue;
+      now += gray_now[u], then += gray[index];
     }
   }
   return std::clamp(static_cast<float>(now / then), 0.5f, 2.f);
@@ -39,15 +42,21 @@ void Splat(const GridCamera& camera, const WorkingFrame& current, const Referenc
   const Rigid3d current_from_reference = Inverse(reference.reference_from_current);
   const float exposure = ExposureRatio(camera, current, reference);
   ProjectedRow row(camera.width);
+  std::vector<int> hits(camera.width);  // cells of a row that fall where something is wanted
   const auto nearest_m = Cells(canvas->depth_m), nearest_gray = Cells(canvas->gray);
   const auto is_wanted = Cells(wanted);
   for (int v = 0; v < camera.height; ++v) {
     ProjectRow(camera, current_from_reference, v, reference.filled_depth_m[v], &row);
     const uint8_t* moving = reference.moving[v];
     const float* gray = reference.frame->pyramid[1][v];
-    for (int u = 0; u < camera.width; ++u) {
+    int count = 0;
+    for (int u = 0; u < camera.width; ++u) {  // without branches, which nobody could predict
+      hits[count] = u;
       const int index = row.index[u];
-      if (index < 0 || is_wanted[index] == 0 || moving[u] != 0) continue;
+      count += (index >= 0) & (is_wanted[std::max(index, 0)] != 0) & (moving[u] == 0);
+    }
+    for (int i = 0; i < count; ++i) {
+      const int u = hits[i], index = row.index[u];
       if (row.depth_m[u] >= nearest_m[index]) continue;
       nearest_m[index] = row.depth_m[u];
       nearest_gray[index] = gray[u] * exposure;

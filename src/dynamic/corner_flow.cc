@@ -214,13 +214,33 @@ std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const CornerOption
   return chosen;
 }
 
+/// Fetches what a patch about a position will be made of: images of the past have long left the caches.
+void Fetch(const cv::Mat1f& image, cv::Point2f centre) {
+  const int u = std::clamp(cvFloor(centre.x - kHalf) - 1, 0, image.cols - 1);
+  const int last_u = std::min(u + kSize + 2, image.cols - 1);
+  const int v = std::clamp(cvFloor(centre.y - kHalf) - 1, 0, image.rows - 1);
+  for (int row = v; row < std::min(v + kSize + 3, image.rows); ++row) {
+    __builtin_prefetch(image[row] + u);
+    __builtin_prefetch(image[row] + last_u);
+  }
+}
+
 std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& first,
                                      const std::vector<cv::Mat1f>& second, std::span<const FlowQuery> queries,
                                      const FlowOptions& options) {
   const auto track = HasWideVectors() ? TrackPatchWide : TrackPatch;
   std::vector<FlowResult> results;
   results.reserve(queries.size());
-  for (const FlowQuery& query : queries) results.push_back(track(first, second, query, options));
+  for (size_t i = 0; i < queries.size(); ++i) {
+    if (i + 1 < queries.size()) {
+      for (size_t level = 0; level < first.size(); ++level) {
+        const float scale = 1 / static_cast<float>(1 << level);
+        Fetch(first[level], queries[i + 1].position * scale);
+        if (level == 0) Fetch(second[level], queries[i + 1].predicted * scale);
+      }
+    }
+    results.push_back(track(first, second, queries[i], options));
+  }
   return results;
 }
 

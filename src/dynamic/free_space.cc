@@ -22,8 +22,12 @@ struct SeenRow {
 };
 
 void LookUp(const ReferenceView& reference, const ProjectedRow& row, SeenRow* seen) {
+  constexpr size_t kPerLine = 8;  // of the cache
   const cv::Vec2f* envelope_m = reference.envelope_m[0];
   const uint8_t* moving = reference.moving[0];
+  const int ahead = reference.envelope_m.cols, last = static_cast<int>(reference.envelope_m.total()) - 1;
+  for (size_t u = 0; u < row.index.size(); u += kPerLine)  // where about the next row will fall
+    __builtin_prefetch(envelope_m + std::min(std::max(row.index[u], 0) + ahead, last));
   for (size_t u = 0; u < row.index.size(); ++u) {
     const int somewhere = std::max(row.index[u], 0);
     seen->nearest_m[u] = row.index[u] < 0 ? 0.f : envelope_m[somewhere][0];

@@ -32,7 +32,7 @@ cv::Mat1b GoneSince(const GridCamera& camera, const ReferenceView& past, Referen
   cv::Mat1b gone(depth_m.size(), uint8_t{0}), undecided;
   if (cv::countNonZero(votes.suspicious) < segmentation.min_cells) return gone;
   cv::compare(votes.confirmed_static, 0, undecided, cv::CMP_EQ);
-  for (const Cluster& cluster : SegmentCells(depth_m, undecided, segmentation.min_cells).clusters)
+  for (const Cluster& cluster : SeededClusters(depth_m, undecided, votes.suspicious, segmentation.min_cells))
     if (HasGone(cluster, votes))
       for (const int cell : cluster.cells) gone(cell) = 255;
   cv::dilate(gone, gone, cv::Mat::ones(3, 3, CV_8U));

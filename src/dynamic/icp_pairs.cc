@@ -15,6 +15,7 @@ constexpr int kBlock = 64;  // points that go through each step together
 
 /// Points of a row: where they are and where they meet the target. Structure of arrays, for vectors.
 struct SourceBlock {
+  int size = 0, padded = 0;                  // points, and with those to fill a vector
   float x[kBlock], y[kBlock], z[kBlock];     // source frame, m
   float qx[kBlock], qy[kBlock], qz[kBlock];  // target frame, m
   float u[kBlock], v[kBlock];                // cell of the target there
@@ -37,7 +38,7 @@ void Project(const GridCamera& camera, const Eigen::Matrix3f& rotation, const Ei
   const float fx = camera.fx, fy = camera.fy, cx = camera.cx + 0.5f, cy = camera.cy + 0.5f;
   const int columns = camera.width;
   constexpr float kNearestM = 0.1f;
-  for (int k = 0; k < kBlock; ++k) {
+  for (int k = 0; k < block->padded; ++k) {
     const float x = block->x[k], y = block->y[k], z = block->z[k];
     const float qz = r20 * x + r21 * y + r22 * z + t2;
     const float qx = r00 * x + r01 * y + r02 * z + t0;
@@ -54,24 +55,33 @@ void Project(const GridCamera& camera, const Eigen::Matrix3f& rotation, const Ei
   }
 }
 
-/// Gathers what the target holds where the points fall; the number of pairs.
-int Meet(const GridCamera& camera, const SourceBlock& block, const IcpTarget& target, PairBlock* pairs) {
+/// Gathers what the target holds where the points fall; the number of pairs. ahead: to where about the next
+/// row of points will fall, for the target has long left the caches.
+int Meet(const GridCamera& camera, const SourceBlock& block, const IcpTarget& target, int ahead,
+         PairBlock* pairs) {
   const float *depth_m = target.frame->depth_m[0], *normal_x = target.frame->normal_x[0],
               *normal_y = target.frame->normal_y[0], *normal_z = target.frame->normal_z[0];
-  const uint8_t* ignored = target.ignored != nullptr ? (*target.ignored)[0] : nullptr;
+  const uint8_t nothing = 0, *ignored = target.ignored != nullptr ? (*target.ignored)[0] : &nothing;
+  const int ignored_step = target.ignored != nullptr ? 1 : 0;
   const float inverse_fx = 1 / camera.fx, inverse_fy = 1 / camera.fy;
-  int count = 0;
-  for (int k = 0; k < kBlock; ++k) {
-    const int at = block.index[k];
-    if (at < 0 || normal_z[at] == 0 || (ignored != nullptr && ignored[at] != 0)) continue;
+  const int last = camera.width * camera.height - 1;
+  int met[kBlock], count = 0;
+  for (int k = 0; k < block.size; ++k) {
+    const int at = block.index[k], there = std::max(at, 0), next = std::min(there + ahead, last);
+    __builtin_prefetch(normal_x + next), __builtin_prefetch(normal_y + next);
+    __builtin_prefetch(normal_z + next), __builtin_prefetch(depth_m + next);
+    met[count] = k;  // without a branch, which nobody could predict
+    count += (at >= 0) & (normal_z[there] != 0) & (ignored[there * ignored_step] == 0);
+  }
+  for (int i = 0; i < count; ++i) {
+    const int k = met[i], at = block.index[k];
     const float tz = depth_m[at];
-    pairs->x[count] = block.x[k], pairs->y[count] = block.y[k], pairs->z[count] = block.z[k];
-    pairs->qx[count] = block.qx[k], pairs->qy[count] = block.qy[k], pairs->qz[count] = block.qz[k];
-    pairs->tx[count] = (block.u[k] - camera.cx) * inverse_fx * tz;
-    pairs->ty[count] = (block.v[k] - camera.cy) * inverse_fy * tz;
-    pairs->tz[count] = tz;
-    pairs->nx[count] = normal_x[at], pairs->ny[count] = normal_y[at], pairs->nz[count] = normal_z[at];
-    ++count;
+    pairs->x[i] = block.x[k], pairs->y[i] = block.y[k], pairs->z[i] = block.z[k];
+    pairs->qx[i] = block.qx[k], pairs->qy[i] = block.qy[k], pairs->qz[i] = block.qz[k];
+    pairs->tx[i] = (block.u[k] - camera.cx) * inverse_fx * tz;
+    pairs->ty[i] = (block.v[k] - camera.cy) * inverse_fy * tz;
+    pairs->tz[i] = tz;
+    pairs->nx[i] = normal_x[at], pairs->ny[i] = normal_y[at], pairs->nz[i] = normal_z[at];
   }
   return count;
 }
@@ -140,7 +150,7 @@ void AddAllPairs(const GridCamera& camera, const WorkingFrame& source, const cv:
   const Eigen::Matrix3f rotation = target_from_source.RotationMatrix().cast<float>();
   const Eigen::Vector3f translation = target_from_source.translation.cast<float>();
   const float inverse_fx = 1 / camera.fx, inverse_fy = 1 / camera.fy;
-  SourceBlock block;
+  SourceBlock block{};
   PairBlock pairs;
   Equations equations;
   for (int v = stride / 2; v < camera.height; v += stride) {
@@ -148,14 +158,16 @@ void AddAllPairs(const GridCamera& camera, const WorkingFrame& source, const cv:
     const uint8_t* ignored = ignored_source != nullptr ? (*ignored_source)[v] : nullptr;
     const float b = (static_cast<float>(v) - camera.cy) * inverse_fy;
     for (int first = stride / 2; first < camera.width; first += kBlock * stride) {
-      for (int k = 0; k < kBlock; ++k) {
+      block.size = std::min(kBlock, (camera.width - first + stride - 1) / stride);
+      block.padded = (block.size + PairSums::kLanes - 1) / PairSums::kLanes * PairSums::kLanes;
+      for (int k = 0; k < block.size; ++k) {
         const int u = first + k * stride;
-        const float z = u >= camera.width || (ignored != nullptr && ignored[u] != 0) ? 0.f : depth_m[u];
+        const float z = ignored != nullptr && ignored[u] != 0 ? 0.f : depth_m[u];
         block.x[k] = (static_cast<float>(u) - camera.cx) * inverse_fx * z;
         block.y[k] = b * z, block.z[k] = z;
       }
       Project(camera, rotation, translation, &block);
-      const int count = Meet(camera, block, target, &pairs);
+      const int count = Meet(camera, block, target, stride * camera.width, &pairs);
       Linearize(pairs, count, rotation, options, &equations, sums);
       Add(&equations, count, sums);
     }

@@ -20,11 +20,6 @@ struct Capsule {
   Eigen::Vector3f direction;
   float reach;
   float radius;
-
-  float SquaredDistance(const Eigen::Vector3f& point) const {
-    const float along = direction.dot(point - centre);
-    return (point - centre - std::clamp(along, -reach, reach) * direction).squaredNorm();
-  }
 };
 
 Capsule InFrameOf(const HistogramRow& row, const SweptVolume& volume, float reach_m) {
@@ -42,35 +37,49 @@ void Splat(float position, float weight, int num_bins, float* bins) {
   bins[low + 1] += share;
 }
 
-/// Where a block's points are along the capsule, and how far from its axis.
+/// Where one of a block's points, or the centre of a sphere, is along the capsule, and how far from its axis.
 struct Placement {
-  std::array<float, HistogramCloud::Block::kSize> along, squared_distance;
+  float along, squared_distance;
 
-  Placement(const HistogramCloud::Block& block, const Capsule& capsule) {
-    for (int i = 0; i < HistogramCloud::Block::kSize; ++i) {
-      const float x = block.x_m[i] - capsule.centre.x();
-      const float y = block.y_m[i] - capsule.centre.y();
-      const float z = block.z_m[i] - capsule.centre.z();
-      along[i] = x * capsule.direction.x() + y * capsule.direction.y() + z * capsule.direction.z();
-      const float nearest = std::min(std::max(along[i], -capsule.reach), capsule.reach);
-      squared_distance[i] = x * x + y * y + z * z + nearest * (nearest - 2 * along[i]);
-    }
+  Placement(float x_m, float y_m, float z_m, const Capsule& capsule) {
+    const float x = x_m - capsule.centre.x(), y = y_m - capsule.centre.y(), z = z_m - capsule.centre.z();
+    along = x * capsule.direction.x() + y * capsule.direction.y() + z * capsule.direction.z();
+    const float nearest = std::min(std::max(along, -capsule.reach), capsule.reach);
+    squared_distance = x * x + y * y + z * z + nearest * (nearest - 2 * along);
   }
 };
 
+/// Blocks that may have points in the capsule. Without branches, so that the compiler vectorises it.
+void FindNear(const HistogramCloud::Spheres& spheres, const Capsule& capsule, std::vector<uint8_t>* is_near) {
+  const size_t count = spheres.x_m.size();
+  const float *x_m = spheres.x_m.data(), *y_m = spheres.y_m.data(), *z_m = spheres.z_m.data(),
+              *radius_m = spheres.radius_m.data();
+  is_near->resize(count);
+  uint8_t* out = is_near->data();
+  for (size_t b = 0; b < count; ++b) {
+    const float limit = capsule.radius + radius_m[b];
+    out[b] = Placement(x_m[b], y_m[b], z_m[b], capsule).squared_distance <= limit * limit;
+  }
+}
+
 void FillRow(const HistogramCloud& cloud, const Capsule& capsule, float first_m, float bin_m, int num_bins,
              float* bins) {
+  constexpr int kSize = HistogramCloud::Block::kSize;
   const float squared_radius = capsule.radius * capsule.radius;
   const float per_bin = 1.0F / bin_m;
-  for (size_t b = 0; b < cloud.blocks().size(); ++b) {
-    const HistogramCloud::Sphere& sphere = cloud.spheres()[b];
-    const float limit = capsule.radius + sphere.radius_m;
-    if (capsule.SquaredDistance(sphere.centre_m) > limit * limit) continue;
+  std::vector<uint8_t> is_near;
+  FindNear(cloud.spheres(), capsule, &is_near);
+  for (size_t b = 0; b < is_near.size(); ++b) {
+    if (is_near[b] == 0) continue;
     const HistogramCloud::Block& block = cloud.blocks()[b];
-    const Placement placement(block, capsule);
-    for (int i = 0; i < HistogramCloud::Block::kSize; ++i) {
-      if (placement.squared_distance[i] > squared_radius) continue;
-      Splat((placement.along[i] - first_m) * per_bin, block.weight[i], num_bins, bins);
+    std::array<float, kSize> along, squared_distance;
+    for (int i = 0; i < kSize; ++i) {
+      const Placement point(block.x_m[i], block.y_m[i], block.z_m[i], capsule);
+      along[i] = point.along, squared_distance[i] = point.squared_distance;
+    }
+    for (int i = 0; i < kSize; ++i) {
+      if (squared_distance[i] > squared_radius) continue;
+      Splat((along[i] - first_m) * per_bin, block.weight[i], num_bins, bins);
     }
   }
 }
@@ -87,15 +96,19 @@ void Append(const Eigen::Vector3f& point_m, float weight, int index, HistogramCl
   block->weight[index] = weight;
 }
 
-HistogramCloud::Sphere Enclose(const HistogramCloud::Block& block) {
+void Enclose(const HistogramCloud::Block& block, HistogramCloud::Spheres* spheres) {
   using Axis = Eigen::Map<const Eigen::Array<float, HistogramCloud::Block::kSize, 1>>;
   const Axis x(block.x_m.data());
   const Axis y(block.y_m.data());
   const Axis z(block.z_m.data());
   const Eigen::Vector3f low(x.minCoeff(), y.minCoeff(), z.minCoeff());
   const Eigen::Vector3f high(x.maxCoeff(), y.maxCoeff(), z.maxCoeff());
+  const Eigen::Vector3f centre = 0.5F * (low + high);
+  spheres->x_m.push_back(centre.x());
+  spheres->y_m.push_back(centre.y());
+  spheres->z_m.push_back(centre.z());
   // A hair more, so that rounding never loses a point on the sphere.
-  return {0.5F * (low + high), 0.5F * (high - low).norm() + 1e-5F};
+  spheres->radius_m.push_back(0.5F * (high - low).norm() + 1e-5F);
 }
 
 }  // namespace
@@ -117,8 +130,7 @@ HistogramCloud::HistogramCloud(std::span<const Eigen::Vector3f> points_m, std::s
     const Block& last = blocks_.back();
     Append({last.x_m[0], last.y_m[0], last.z_m[0]}, 0, filled, &blocks_.back());
   }
-  spheres_.reserve(blocks_.size());
-  for (const Block& block : blocks_) spheres_.push_back(Enclose(block));
+  for (const Block& block : blocks_) Enclose(block, &spheres_);
 }
 
 double SurfaceWeight(std::span<const Eigen::Vector3f> points_m) {

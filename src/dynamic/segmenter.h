@@ -23,4 +23,9 @@ struct Segmentation {
 /// and are included (non-zero); neighbours are linked whose depth differs by less than a surface's step.
 Segmentation SegmentCells(const cv::Mat1f& depth_m, const cv::Mat1b& included, int min_cells);
 
+/// Of the same components those that hold one of the seeds (non-zero), by their first cells: what is far from
+/// any seed is not looked at.
+std::vector<Cluster> SeededClusters(const cv::Mat1f& depth_m, const cv::Mat1b& included,
+                                    const cv::Mat1b& seeds, int min_cells);
+
 }  // namespace orbslam

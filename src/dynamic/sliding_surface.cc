@@ -14,8 +14,9 @@ constexpr uint8_t kUnreached = 0, kResting = 1, kSliding = 2;
 
 bool IsNeighbor(const TrackedCorner& a, const TrackedCorner& b, const SlidingOptions& options) {
   const cv::Point2f offset = a.current - b.current;
-  return b.depth_m > 0 && offset.dot(offset) < options.radius_px * options.radius_px &&
-         std::abs(a.depth_m - b.depth_m) < options.depth_share * a.depth_m;
+  return (b.depth_m > 0) &
+         (offset.x * offset.x + offset.y * offset.y < options.radius_px * options.radius_px) &
+         (std::abs(a.depth_m - b.depth_m) < options.depth_share * a.depth_m);
 }
 
 /// Whether most of the corners around it move, and alike.

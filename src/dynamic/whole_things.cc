@@ -15,7 +15,7 @@ namespace {
 /// Connected surfaces on which enough moves; all others are taken out of the included cells.
 std::vector<Cluster> ThatMove(const WorkingFrame& frame, const cv::Mat1b& moving,
                               const WholeThingOptions& options, cv::Mat1b* included) {
-  std::vector<Cluster> things = SegmentCells(frame.depth_m, *included, options.min_moving_cells).clusters;
+  std::vector<Cluster> things = SeededClusters(frame.depth_m, *included, moving, options.min_moving_cells);
   included->setTo(0);
   std::erase_if(things, [&](const Cluster& thing) {
     return std::ranges::count_if(thing.cells, [&](int cell) { return moving(cell) != 0; }) <

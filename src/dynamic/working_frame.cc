@@ -107,7 +107,8 @@ float BlockDepth(const float* corner, size_t stride, int step) {
   for (int y = 0; y < step; ++y)
     for (int x = 0; x < step; ++x) {
       const float z = corner[y * stride + x];
-      if (z > 0 && z < middle) near_sum += z, ++near_count;
+      const bool is_near = (z > 0) & (z < middle);  // without a branch, which nobody could predict
+      near_sum += is_near ? z : 0.f, near_count += is_near;
     }
   if (near_count * 2 >= all.count) return near_sum / static_cast<float>(near_count);
   return (all.sum_m - near_sum) / static_cast<float>(all.count - near_count);

@@ -33,16 +33,16 @@ class HistogramCloud {
   };
   std::span<const Block> blocks() const { return blocks_; }
 
-  /// Round the points of each block; apart from these, so that those passed over stay out of the cache.
-  struct Sphere {
-    Eigen::Vector3f centre_m;
-    float radius_m;
+  /// Round the points of each block, one entry a block: apart from these, so that those passed over stay out
+  /// of the cache, and structure of arrays, for vectors.
+  struct Spheres {
+    std::vector<float> x_m, y_m, z_m, radius_m;
   };
-  std::span<const Sphere> spheres() const { return spheres_; }
+  const Spheres& spheres() const { return spheres_; }
 
  private:
   std::vector<Block> blocks_;
-  std::vector<Sphere> spheres_;
+  Spheres spheres_;
 };
 
 /// Sum of z^2 of the points: S_p in the units of an unweighted HistogramCloud.
