@@ -13,13 +13,15 @@ std::vector<ClusterVerdict> ClusterJudge::Judge(const Segmentation& segmentation
                                                 std::span<const TrackedCorner> corners) const {
   std::vector<ClusterVerdict> verdicts(facts.size());
   std::ranges::transform(facts, verdicts.begin(), [this](const ClusterFacts& cluster) {
-    return ClusterVerdict{.log_odds = FuseEvidence(evidence_, cluster, fusion_), .motion = {}};
+    ClusterVerdict verdict;
+    verdict.log_odds = FuseEvidence(evidence_, cluster, fusion_);
+    return verdict;
   });
   if (window != nullptr) AskHistogram(segmentation, facts, *window, corners, verdicts);
   return verdicts;
 }
 
-/// The largest undecided clusters are decided by it; it gives the largest moving ones their velocity.
+/// The largest undecided clusters are decided by it; the largest moving ones may be given their velocity.
 void ClusterJudge::AskHistogram(const Segmentation& segmentation, std::span<const ClusterFacts> facts,
                                 const HistogramWindow& window, std::span<const TrackedCorner> corners,
                                 std::span<ClusterVerdict> verdicts) const {
@@ -32,9 +34,11 @@ void ClusterJudge::AskHistogram(const Segmentation& segmentation, std::span<cons
     ClusterVerdict& verdict = verdicts[c];
     const bool decides = fusion_.use_histogram && std::abs(verdict.log_odds) < fusion_.undecided;
     if (!decides && !(histogram_.use_velocity && verdict.log_odds > 0)) continue;
-    verdict.motion = window.Motion(segmentation.clusters[c], corners);
-    if (decides) verdict.log_odds += HistogramLogOdds(verdict.motion.ratio / kPersistentTau, fusion_);
+    verdict.may_ask_velocity = !decides;
     ++asked;
+    if (!decides) continue;
+    verdict.motion = window.Motion(segmentation.clusters[c], corners);
+    verdict.log_odds += HistogramLogOdds(verdict.motion.ratio / kPersistentTau, fusion_);
   }
 }
 

@@ -12,8 +12,9 @@
 namespace orbslam {
 
 struct ClusterVerdict {
-  float log_odds = 0;    // positive: it moves
-  ClusterMotion motion;  // by the histogram; zero: not asked
+  float log_odds = 0;             // positive: it moves
+  ClusterMotion motion;           // by the histogram; zero: not asked
+  bool may_ask_velocity = false;  // it moves, and is among the few for which there is time to ask
 };
 
 /// Judges clusters by all evidence, and lets the motion histogram decide where that leaves it open.

@@ -6,6 +6,7 @@
 
 #include "depthless_growth.h"
 #include "motion_field.h"
+#include "object_velocity.h"
 #include "plane_split.h"
 #include "sliding_surface.h"
 #include "whole_things.h"
@@ -49,7 +50,7 @@ DynamicMask FullDetector::Process(const RgbdImage& image) {
 
   result.fail_open_reason = FailOpenReason(judgement);
   if (!result.fail_open_reason.empty()) judgement.moving.setTo(0), judgement.log_odds.setTo(0);
-  Report(*frame, judgement, &result);
+  Report(*frame, judgement, window, &result);
   log_odds_ = judgement.log_odds;
   history_.Add(frame, judgement.moving, window.current_cloud());
   if (options_.hindsight.use_hindsight && judgement.motion.IsSharp())
@@ -186,22 +187,14 @@ std::string FullDetector::FailOpenReason(const Judgement& judgement) {
   return {};
 }
 
-void FullDetector::Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result) {
+void FullDetector::Report(const WorkingFrame& frame, const Judgement& judgement,
+                          const HistogramWindow& window, DynamicMask* result) {
   const WorkingGrids& grids = reducer_.grids();
   ObjectTracker::Labelled labelled =
       tracker_.Update(grids.cell, grids.cell_step * grids.cell_step, judgement.moving, frame,
                       judgement.log_odds, judgement.shift);
-  std::vector<int> largest(labelled.objects.size(), 0);  // cells of the cluster that stands for the object
-  for (size_t c = 0; c < judgement.verdicts.size(); ++c) {
-    const std::vector<int>& cells = judgement.segmentation.clusters[c].cells;
-    const int index = labelled.object_of_cell(cells.front());
-    const ClusterMotion& motion = judgement.verdicts[c].motion;
-    if (index < 0 || judgement.log_odds(cells.front()) <= 0 || motion.direction.isZero()) continue;
-    if (static_cast<int>(cells.size()) <= largest[index]) continue;
-    largest[index] = static_cast<int>(cells.size());
-    labelled.objects[index].velocity_mps = motion.velocity_mps.cast<double>();
-    labelled.objects[index].line_integral_ratio = motion.ratio / kPersistentTau;
-  }
+  SetVelocities(judgement.segmentation, judgement.verdicts, judgement.log_odds, window,
+                judgement.motion.camera.corners, &labelled);
   result->objects = std::move(labelled.objects);
   const int num_pixels = static_cast<int>(frame.depth_m.total()) * grids.cell_step * grids.cell_step;
   const bool is_believed = presence_.Update(result->objects, num_pixels, frame.timestamp_s);

@@ -51,7 +51,8 @@ class FullDetector {
   void JudgeThings(const WorkingFrame& frame, Judgement* judgement) const;
   void JudgeDepthless(const WorkingFrame& frame, std::span<const ReferenceView* const> references,
                       Judgement* judgement) const;
-  void Report(const WorkingFrame& frame, const Judgement& judgement, DynamicMask* result);
+  void Report(const WorkingFrame& frame, const Judgement& judgement, const HistogramWindow& window,
+              DynamicMask* result);
   std::string FailOpenReason(const Judgement& judgement);
 
   DynamicDetectorOptions options_;
