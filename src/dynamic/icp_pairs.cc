@@ -56,13 +56,13 @@ void Project(const GridCamera& camera, const Eigen::Matrix3f& rotation, const Ei
 }
 
 /// Gathers what the target holds where the points fall; the number of pairs. ahead: to where about the next
-/// row of points will fall, for the target has long left the caches.
-int Meet(const GridCamera& camera, const SourceBlock& block, const IcpTarget& target, int ahead,
-         PairBlock* pairs) {
+/// row of points will fall, for the target has long left the caches. Not inlined: it needs all registers.
+[[gnu::noinline]] int Meet(const GridCamera& camera, const SourceBlock& block, const IcpTarget& target,
+                           int ahead, PairBlock* pairs) {
   const float *depth_m = target.frame->depth_m[0], *normal_x = target.frame->normal_x[0],
               *normal_y = target.frame->normal_y[0], *normal_z = target.frame->normal_z[0];
   const uint8_t nothing = 0, *ignored = target.ignored != nullptr ? (*target.ignored)[0] : &nothing;
-  const int ignored_step = target.ignored != nullptr ? 1 : 0;
+  const int ignored_mask = target.ignored != nullptr ? -1 : 0;
   const float inverse_fx = 1 / camera.fx, inverse_fy = 1 / camera.fy;
   const int last = camera.width * camera.height - 1;
   int met[kBlock], count = 0;
@@ -71,7 +71,7 @@ int Meet(const GridCamera& camera, const SourceBlock& block, const IcpTarget& ta
     __builtin_prefetch(normal_x + next), __builtin_prefetch(normal_y + next);
     __builtin_prefetch(normal_z + next), __builtin_prefetch(depth_m + next);
     met[count] = k;  // without a branch, which nobody could predict
-    count += (at >= 0) & (normal_z[there] != 0) & (ignored[there * ignored_step] == 0);
+    count += (at >= 0) & (normal_z[there] != 0) & (ignored[there & ignored_mask] == 0);
   }
   for (int i = 0; i < count; ++i) {
     const int k = met[i], at = block.index[k];
