@@ -2,36 +2,50 @@
 #include "cluster_facts.h"
 
 #include <cmath>
-#include <utility>
+
+#include "cells.h"
 
 namespace orbslam {
 namespace {
 
-bool IsInterior(const cv::Mat1i& labels, int u, int v) {
-  if (u == 0 || v == 0 || u == labels.cols - 1 || v == labels.rows - 1) return false;
-  const int label = labels(v, u);
-  return labels(v - 1, u - 1) == label && labels(v - 1, u + 1) == label && labels(v + 1, u - 1) == label &&
-         labels(v + 1, u + 1) == label;
-}
+/// What is looked at around each cell.
+struct Surroundings {
+  int width, height;
+  std::span<const int> labels;
+  std::span<const uint8_t> num_free, num_static, suspicious, confirmed_static;
+  std::span<const float> depth_m;
 
-void AddCell(const Segmentation& segmentation, const WorkingFrame& frame, const FreeSpaceVotes& votes,
-             int cell, ClusterFacts* facts) {
-  const int width = frame.depth_m.cols, height = frame.depth_m.rows;
-  facts->num_judged += votes.num_free(cell) + votes.num_static(cell) > 0;
-  facts->num_suspicious += votes.suspicious(cell) != 0;
-  const int u = cell % width, v = cell / width, label = segmentation.labels(cell);
-  const float z = frame.depth_m(cell), step = MaxSurfaceStepM(z);
-  bool border = false, attached = false;
-  for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const int x = u + du, y = v + dv;
-    if (x < 0 || y < 0 || x >= width || y >= height || segmentation.labels(y, x) == label) continue;
-    border = true;
-    attached = attached || (votes.confirmed_static(y, x) != 0 && std::abs(frame.depth_m(y, x) - z) < step);
+  Surroundings(const Segmentation& segmentation, const WorkingFrame& frame, const FreeSpaceVotes& votes)
+      : width(frame.depth_m.cols),
+        height(frame.depth_m.rows),
+        labels(Cells(segmentation.labels)),
+        num_free(Cells(votes.num_free)),
+        num_static(Cells(votes.num_static)),
+        suspicious(Cells(votes.suspicious)),
+        confirmed_static(Cells(votes.confirmed_static)),
+        depth_m(Cells(frame.depth_m)) {}
+
+  void AddCell(int cell, ClusterFacts* facts) const {
+    facts->num_judged += num_free[cell] + num_static[cell] > 0;
+    facts->num_suspicious += suspicious[cell] != 0;
+    const int u = cell % width, v = cell / width, label = labels[cell];
+    const bool left = u > 0, right = u + 1 < width, above = v > 0, below = v + 1 < height;
+    const float step = MaxSurfaceStepM(depth_m[cell]);
+    bool border = false, attached = false;
+    const auto look = [&](bool exists, int other) {
+      if (!exists || labels[other] == label) return;
+      border = true;
+      attached =
+          attached || (confirmed_static[other] != 0 && std::abs(depth_m[other] - depth_m[cell]) < step);
+    };
+    look(right, cell + 1), look(left, cell - 1), look(below, cell + width), look(above, cell - width);
+    facts->num_border += border;
+    facts->num_attached += attached;
+    facts->num_interior += !border && left && right && above && below && labels[cell - width - 1] == label &&
+                           labels[cell - width + 1] == label && labels[cell + width - 1] == label &&
+                           labels[cell + width + 1] == label;
   }
-  facts->num_border += border;
-  facts->num_interior += !border && IsInterior(segmentation.labels, u, v);
-  facts->num_attached += attached;
-}
+};
 
 /// held: where positive a corner counts, if it moves; null: all count everywhere.
 void AddCorners(const Segmentation& segmentation, const Flow& flow, const cv::Mat1f* held,
@@ -52,15 +66,17 @@ void AddCorners(const Segmentation& segmentation, const Flow& flow, const cv::Ma
 std::vector<ClusterFacts> GatherFacts(const Segmentation& segmentation, const WorkingFrame& frame,
                                       const FreeSpaceVotes& votes, const cv::Mat1f& carried,
                                       std::span<const Flow> flows) {
+  const Surroundings surroundings(segmentation, frame, votes);
+  const auto carried_odds = Cells(carried);
   std::vector<ClusterFacts> all(segmentation.clusters.size());
   for (size_t c = 0; c < all.size(); ++c) {
     const std::vector<int>& cells = segmentation.clusters[c].cells;
     all[c].sharpness = flows.front().gate.sharpness;
     all[c].num_cells = static_cast<int>(cells.size());
     for (const int cell : cells) {
-      AddCell(segmentation, frame, votes, cell, &all[c]);
+      surroundings.AddCell(cell, &all[c]);
       if (!segmentation.clusters[c].is_flat)
-        all[c].carried += carried(cell) / static_cast<float>(cells.size());
+        all[c].carried += carried_odds[cell] / static_cast<float>(cells.size());
     }
   }
   for (const Flow& flow : flows) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "cells.h"
 #include "depthless_growth.h"
 #include "motion_field.h"
 #include "object_velocity.h"
@@ -160,11 +161,15 @@ void FullDetector::JudgeDepthless(const WorkingFrame& frame, std::span<const Ref
   cv::dilate(judgement->moving, contact, cv::Mat::ones(2 * kContactCells + 1, 2 * kContactCells + 1, CV_8U));
   const cv::Mat1b grown =
       GrowIntoDepthless(judgement->moving, frame, odds, judgement->carried, options_.growth);
-  for (int i = 0; i < static_cast<int>(grown.total()); ++i) {
-    if (frame.depth_m(i) > 0) continue;
-    const float support = grown(i) != 0 && contact(i) != 0 ? options_.growth.contact : 0.f;
+  const auto depth_m = Cells(frame.depth_m), log_odds_here = Cells(odds);
+  const auto is_grown = Cells(grown);
+  const auto has_contact = Cells(contact);
+  const auto log_odds = Cells(judgement->log_odds);
+  for (size_t i = 0; i < depth_m.size(); ++i) {
+    if (depth_m[i] > 0) continue;
+    const float support = is_grown[i] != 0 && has_contact[i] != 0 ? options_.growth.contact : 0.f;
     // Positive only in the mask: what merely looks unexpected must not begin one.
-    judgement->log_odds(i) = std::clamp(odds(i) + support, kMinLogOdds, grown(i) != 0 ? kMaxLogOdds : 0.f);
+    log_odds[i] = std::clamp(log_odds_here[i] + support, kMinLogOdds, is_grown[i] != 0 ? kMaxLogOdds : 0.f);
   }
   cv::dilate(grown, judgement->moving, rim);
 }

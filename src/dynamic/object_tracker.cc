@@ -21,12 +21,16 @@ std::vector<int> ObjectTracker::InheritIds(const cv::Mat1i& parts, int num_parts
   std::vector<int> ids(num_parts, 0);
   if (!previous_ids_.empty()) {
     std::map<std::pair<int, int>, int> overlap;  // part, id -> cells
+    auto last = overlap.end();                   // most cells are like the one before
     for (int v = 0; v < parts.rows; ++v)
       for (int u = 0; u < parts.cols; ++u) {
         if (parts(v, u) == 0) continue;
         const int x = std::clamp(u + cvRound(shift(v, u)[0]), 0, parts.cols - 1);
         const int y = std::clamp(v + cvRound(shift(v, u)[1]), 0, parts.rows - 1);
-        if (previous_ids_(y, x) > 0) ++overlap[{parts(v, u), previous_ids_(y, x)}];
+        const std::pair pair(parts(v, u), previous_ids_(y, x));
+        if (pair.second == 0) continue;
+        if (last == overlap.end() || last->first != pair) last = overlap.try_emplace(pair, 0).first;
+        ++last->second;
       }
     std::vector<std::pair<int, std::pair<int, int>>> ranked;
     for (const auto& [pair, cells] : overlap) ranked.push_back({-cells, pair});

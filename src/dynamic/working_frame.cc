@@ -151,6 +151,12 @@ FrameReducer::FrameReducer(const PinholeCamera& camera, const CornerOptions& cor
     raw_to_cell_(static_cast<int>(i) / camera.width, static_cast<int>(i) % camera.width) =
         v * grids_.cell.width + u;
   }
+  four_to_cell_ = cv::Mat1i(camera.height, camera.width / 4);
+  for (int v = 0; v < four_to_cell_.rows; ++v)
+    for (int i = 0; i < four_to_cell_.cols; ++i) {
+      const int* four = raw_to_cell_[v] + 4 * i;
+      four_to_cell_(v, i) = std::all_of(four, four + 4, [&](int cell) { return cell == *four; }) ? *four : -1;
+    }
   for (int v = 0; v < camera.height; ++v)
     is_like_above_.push_back(
         v > 0 && std::equal(raw_to_cell_[v], raw_to_cell_[v] + camera.width, raw_to_cell_[v - 1]));
@@ -222,7 +228,16 @@ cv::Mat1b FrameReducer::ToRawMask(const cv::Mat1b& cell_mask) const {
       std::copy_n(raw[v - 1], raw.cols, out);
       continue;
     }
-    for (int u = 0; u < raw.cols; ++u) out[u] = cells[index[u]] != 0 ? 255 : 0;
+    const auto mark = [&](int begin, int end) {
+      for (int u = begin; u < end; ++u) out[u] = cells[index[u]] != 0 ? 255 : 0;
+    };
+    const int* four = four_to_cell_[v];
+    for (int i = 0; i < four_to_cell_.cols; ++i)
+      if (four[i] >= 0)
+        std::fill_n(out + 4 * i, 4, static_cast<uint8_t>(cells[four[i]] != 0 ? 255 : 0));
+      else
+        mark(4 * i, 4 * i + 4);
+    mark(4 * four_to_cell_.cols, raw.cols);
   }
   return raw;
 }

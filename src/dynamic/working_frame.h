@@ -59,6 +59,7 @@ class FrameReducer {
   cv::Mat gray_map_, gray_map_fraction_;  // for cv::remap, of the undistorted grey grid into the halved image
   cv::Mat_<cv::Point> cell_corner_;       // raw pixel at a cell's top left; x = -1: outside
   cv::Mat1i raw_to_cell_;                 // cell index of each raw pixel; nearest one where there is none
+  cv::Mat1i four_to_cell_;                // the same of each four in a row; -1: they differ
   std::vector<bool> is_like_above_;       // a row of that; free of distortion, most are
 };
 
