@@ -24,7 +24,7 @@ std::vector<int> ObjectTracker::InheritIds(const cv::Mat1i& parts, int num_parts
     auto last = overlap.end();                   // most cells are like the one before
     for (int v = 0; v < parts.rows; ++v)
       for (int u = 0; u < parts.cols; ++u) {
-        if (parts(v, u) == 0) continue;
+        if (parts[v][u] == 0) continue;
         const int x = std::clamp(u + cvRound(shift(v, u)[0]), 0, parts.cols - 1);
         const int y = std::clamp(v + cvRound(shift(v, u)[1]), 0, parts.rows - 1);
         const std::pair pair(parts(v, u), previous_ids_(y, x));
@@ -55,18 +55,21 @@ ObjectTracker::Labelled ObjectTracker::Update(const GridCamera& camera, int pixe
     double log_odds = 0;
   };
   std::vector<Sums> sums(num_parts);
-  for (int v = 0; v < parts.rows; ++v)
+  for (int v = 0; v < parts.rows; ++v) {
+    const int* part = parts[v];
+    const float *cell_log_odds = log_odds[v], *depth_m = frame.depth_m[v];
     for (int u = 0; u < parts.cols; ++u) {
-      if (parts(v, u) == 0) continue;
-      Sums& sum = sums[parts(v, u)];
+      if (part[u] == 0) continue;
+      Sums& sum = sums[part[u]];
       ++sum.cells;
-      sum.log_odds += log_odds(v, u);
-      const double z = frame.depth_m(v, u);
-      if (z <= 0 || log_odds(v, u) <= 0) continue;  // the rim of the mask lies on the background
+      sum.log_odds += cell_log_odds[u];
+      const double z = depth_m[u];
+      if (z <= 0 || cell_log_odds[u] <= 0) continue;  // the rim of the mask lies on the background
       ++sum.measured;
       sum.position += z * Eigen::Vector3d((static_cast<float>(u) - camera.cx) / camera.fx,
                                           (static_cast<float>(v) - camera.cy) / camera.fy, 1);
     }
+  }
   std::vector<int> index_of_part(num_parts, -1);
   for (int part = 1; part < num_parts; ++part) {
     const Sums& sum = sums[part];
