@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "orbslam/util/random.h"
+
 namespace orbslam {
 namespace {
 
@@ -68,6 +70,25 @@ TEST(DepthlessLogOdds, CellsWithDepthHaveNone) {
       DepthlessLogOdds(frame, Cells(3), BackgroundOf(kGray + 50), CornersOff(9), GrowthOptions());
   EXPECT_EQ(cv::countNonZero(odds.colRange(0, 10)), 0);
   EXPECT_EQ(cv::countNonZero(odds.colRange(10, kWidth) > 0), kHeight * (kWidth - 10));
+}
+
+TEST(DepthlessLogOdds, AreMeansOverTheDepthlessCellsAround) {
+  Rng rng(3);
+  WorkingFrame frame = DepthlessFrame();
+  cv::Mat1f carried = Cells(0);
+  for (float& z : frame.depth_m) z = rng.Uniform() < 0.6 ? 2.f : 0.f;
+  for (float& odds : carried) odds = static_cast<float>(rng.Uniform() * 6 - 3);
+  GrowthOptions options;
+  options.use_background = false;
+  const cv::Mat1f odds = DepthlessLogOdds(frame, carried, {}, {}, options);
+  const cv::Rect inside(0, 0, kWidth, kHeight);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) {
+      if (frame.depth_m(v, u) > 0) continue;
+      const cv::Rect around = cv::Rect(u - 2, v - 2, 5, 5) & inside;
+      const double mean = cv::mean(carried(around), frame.depth_m(around) == 0)[0];
+      ASSERT_NEAR(odds(v, u), options.memory * mean + options.prior, 1e-5) << u << " " << v;
+    }
 }
 
 class GrowthTest : public testing::Test {
