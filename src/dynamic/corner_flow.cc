@@ -192,6 +192,24 @@ ORBSLAM_WIDE_VECTORS FlowResult TrackPatchWide(const std::vector<cv::Mat1f>& fir
   return TrackPatch(first, second, query, options);
 }
 
+/// Fetches what a patch about a position will be made of: images of the past have long left the caches.
+void Fetch(const cv::Mat1f& image, cv::Point2f centre) {
+  const int u = std::clamp(cvFloor(centre.x - kHalf - 1), 0, image.cols - 1);
+  const int last_u = std::min(u + kSize + 2, image.cols - 1);
+  const int v = std::clamp(cvFloor(centre.y - kHalf - 1), 0, image.rows - 1);
+  for (int row = v; row < std::min(v + kSize + 3, image.rows); ++row) {
+    __builtin_prefetch(image[row] + u);
+    __builtin_prefetch(image[row] + last_u);
+  }
+}
+
+void Fetch(const std::vector<cv::Mat1f>& first, const std::vector<cv::Mat1f>& second,
+           const FlowQuery& query) {
+  for (size_t level = 0; level < first.size(); ++level)
+    Fetch(first[level], query.position / static_cast<float>(1 << level));
+  Fetch(second.front(), query.predicted);
+}
+
 }  // namespace
 
 std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const CornerOptions& options) {
@@ -214,17 +232,6 @@ std::vector<cv::Point2f> SpreadCorners(const cv::Mat1b& gray, const CornerOption
   return chosen;
 }
 
-/// Fetches what a patch about a position will be made of: images of the past have long left the caches.
-void Fetch(const cv::Mat1f& image, cv::Point2f centre) {
-  const int u = std::clamp(cvFloor(centre.x - kHalf) - 1, 0, image.cols - 1);
-  const int last_u = std::min(u + kSize + 2, image.cols - 1);
-  const int v = std::clamp(cvFloor(centre.y - kHalf) - 1, 0, image.rows - 1);
-  for (int row = v; row < std::min(v + kSize + 3, image.rows); ++row) {
-    __builtin_prefetch(image[row] + u);
-    __builtin_prefetch(image[row] + last_u);
-  }
-}
-
 std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& first,
                                      const std::vector<cv::Mat1f>& second, std::span<const FlowQuery> queries,
                                      const FlowOptions& options) {
@@ -232,13 +239,7 @@ std::vector<FlowResult> TrackPatches(const std::vector<cv::Mat1f>& first,
   std::vector<FlowResult> results;
   results.reserve(queries.size());
   for (size_t i = 0; i < queries.size(); ++i) {
-    if (i + 1 < queries.size()) {
-      for (size_t level = 0; level < first.size(); ++level) {
-        const float scale = 1 / static_cast<float>(1 << level);
-        Fetch(first[level], queries[i + 1].position * scale);
-        if (level == 0) Fetch(second[level], queries[i + 1].predicted * scale);
-      }
-    }
+    if (i + 1 < queries.size()) Fetch(first, second, queries[i + 1]);
     results.push_back(track(first, second, queries[i], options));
   }
   return results;
