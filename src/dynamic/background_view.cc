@@ -29,7 +29,7 @@ float ExposureRatio(const GridCamera& camera, const WorkingFrame& current, const
     const float* gray_now = current.pyramid[1][v];
     for (int u = 0; u < camera.width; ++u) {
       const int index = row.index[u];
-      if (index < 0 || moving[index] != 0) continue;
+      if (row.depth_m[u] == kNowhereM || moving[index] != 0) continue;
       if (std::abs(depth_m[index] - row.depth_m[u]) > MaxSurfaceStepM(row.depth_m[u])) continue;
       now += gray_now[u], then += gray[index];
     }
@@ -52,8 +52,7 @@ void Splat(const GridCamera& camera, const WorkingFrame& current, const Referenc
     int count = 0;
     for (int u = 0; u < camera.width; ++u) {  // without branches, which nobody could predict
       hits[count] = u;
-      const int index = row.index[u];
-      count += (index >= 0) & (is_wanted[std::max(index, 0)] != 0) & (moving[u] == 0);
+      count += (is_wanted[row.index[u]] != 0) & (moving[u] == 0);
     }
     for (int i = 0; i < count; ++i) {
       const int u = hits[i], index = row.index[u];

@@ -13,11 +13,11 @@
 namespace orbslam {
 namespace {
 
-/// What a reference saw where each cell of a row falls: an interval of depths, [0, 0] where it knows none,
-/// and whether that moved.
+/// What a reference saw where each cell of a row falls: its nearest and farthest depth, 0, 0 where it knows
+/// none, and whether that moved.
 struct SeenRow {
-  explicit SeenRow(int width) : nearest_m(width), farthest_m(width), moving(width) {}
-  std::vector<float> nearest_m, farthest_m;
+  explicit SeenRow(int width) : envelope_m(width), moving(width) {}
+  std::vector<cv::Vec2f> envelope_m;
   std::vector<int> moving;
 };
 
@@ -27,28 +27,25 @@ void LookUp(const ReferenceView& reference, const ProjectedRow& row, SeenRow* se
   const uint8_t* moving = reference.moving[0];
   const int ahead = reference.envelope_m.cols, last = static_cast<int>(reference.envelope_m.total()) - 1;
   for (size_t u = 0; u < row.index.size(); u += kPerLine)  // where about the next row will fall
-    __builtin_prefetch(envelope_m + std::min(std::max(row.index[u], 0) + ahead, last));
+    __builtin_prefetch(envelope_m + std::min(row.index[u] + ahead, last));
   for (size_t u = 0; u < row.index.size(); ++u) {
-    const int somewhere = std::max(row.index[u], 0);
-    seen->nearest_m[u] = row.index[u] < 0 ? 0.f : envelope_m[somewhere][0];
-    seen->farthest_m[u] = envelope_m[somewhere][1];
-    seen->moving[u] = moving[somewhere];
+    seen->envelope_m[u] = envelope_m[row.index[u]];
+    seen->moving[u] = moving[row.index[u]];
   }
 }
 
 /// Without branches, so that the compiler vectorises it.
 void AddRow(const SeenRow& seen, const ProjectedRow& row, FreeSpaceOptions options, float margin0,
             uint8_t weight, uint8_t* num_free, uint8_t* num_static) {
-  const float *depth_m = row.depth_m.data(), *nearest_m = seen.nearest_m.data(),
-              *farthest_m = seen.farthest_m.data();
+  const float *depth_m = row.depth_m.data(), *envelope_m = seen.envelope_m.front().val;
   const int* moving = seen.moving.data();
   const int width = static_cast<int>(row.index.size());
   for (int u = 0; u < width; ++u) {
-    const float z = depth_m[u], nearest = nearest_m[u];
+    const float z = depth_m[u], nearest = envelope_m[2 * u], farthest = envelope_m[2 * u + 1];
     const float margin =
         options.gate_sigma * DepthSigmaM(nearest) + margin0 * (1 + options.margin_per_metre * nearest);
     const bool is_known = nearest != 0, is_before = z < nearest - margin;
-    const bool is_there = (z < farthest_m[u] + margin) & (moving[u] == 0);
+    const bool is_there = (z < farthest + margin) & (moving[u] == 0);
     num_free[u] = static_cast<uint8_t>(num_free[u] + (is_known & is_before) * weight);
     num_static[u] = static_cast<uint8_t>(num_static[u] + (is_known & !is_before & is_there));
   }

@@ -30,8 +30,8 @@ void ProjectCells(GridCamera camera, const Rigid3d& other_from_this, int v, cons
     const bool inside =
         (z > 0) & (qz > kNearestM) & (column == pu) & (line == pv) & (pu != width) & (pv != height);
     const int at = static_cast<int>(line) * camera.width + static_cast<int>(column);
-    out[u] = qz;
-    index[u] = inside ? at : -1;
+    out[u] = inside ? qz : kNowhereM;
+    index[u] = inside ? at : 0;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "orbslam/geometry/rigid3.h"
@@ -8,7 +9,10 @@
 
 namespace orbslam {
 
-/// A row of cells as another view sees it: index of the cell there (-1: none) and depth there, metres.
+constexpr float kNowhereM = std::numeric_limits<float>::infinity();
+
+/// A row of cells as another view sees it: index of the cell there and depth there, metres; what it does not
+/// see is at index 0 and kNowhereM, behind everything, so that loops need no branches.
 struct ProjectedRow {
   explicit ProjectedRow(int width) : index(width), depth_m(width) {}
   std::vector<int> index;
