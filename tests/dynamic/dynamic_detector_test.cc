@@ -57,6 +57,8 @@ TEST(DynamicDetector, MasksWhoWalksAcrossTheAxis) {
   EXPECT_GT(result.mean.precision, 0.9);
   ASSERT_FALSE(result.last.objects.empty());
   EXPECT_NEAR(result.last.objects.front().centroid_m.z(), 1.7, 0.15);
+  EXPECT_NEAR(result.last.objects.front().velocity_mps.x(), 0.8, 0.15);
+  EXPECT_GT(result.last.objects.front().line_integral_ratio, 0);
 }
 
 TEST(DynamicDetector, HoldsBackWhatIsNotBelievedAndSaysSo) {

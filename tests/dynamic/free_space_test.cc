@@ -54,6 +54,18 @@ TEST_P(FreeSpaceAt, WhatHasComeIsSuspiciousAndWhatStaysIsStatic) {
   EXPECT_GT(Share(votes.confirmed_static, cv::Rect(5, 5, 150, 30)), 0.99);
 }
 
+TEST_P(FreeSpaceAt, WhatAReferenceDoesNotSeeGetsNoVote) {
+  const float wall = GetParam();
+  ReferenceView reference = Reference(Depth(wall, 0, 2));
+  constexpr int kShift = 70;  // cells
+  reference.reference_from_current.translation.x() = kShift * wall / kCamera.fx;
+  const FreeSpaceVotes votes = Vote(Depth(wall, 0, 1), reference);
+  EXPECT_GT(Share(votes.num_static, cv::Rect(5, 5, kCamera.width - kShift - 10, 110)), 0.99);
+  const cv::Rect unseen(kCamera.width - kShift + 1, 0, kShift - 1, kCamera.height);
+  EXPECT_EQ(Share(votes.num_static, unseen), 0);
+  EXPECT_EQ(Share(votes.num_free, unseen), 0);
+}
+
 TEST_P(FreeSpaceAt, NoiseAloneIsNotSuspicious) {
   const float wall = GetParam();
   const FreeSpaceVotes votes = Vote(Depth(wall, 0.7f * wall, 1), Reference(Depth(wall, 0.7f * wall, 2)));

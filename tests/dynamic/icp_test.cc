@@ -46,6 +46,20 @@ TEST(AddPairs, EachPointOfAFrameMeetsItself) {
   }
 }
 
+/// The last of a row, too.
+TEST(AddPairs, PointsAtTheRimMeetWhereTheyFall) {
+  constexpr int kShift = 8, kRim = 2;  // cells; no normals at the rim
+  const WorkingFrame wall = See([](float, float) { return 1.f; });
+  const Rigid3d to_the_left{Rigid3d().rotation, {-kShift / 130.0, 0, 0}};
+  for (const int stride : {1, 2, 3, 4}) {
+    int columns = 0, rows = 0;
+    for (int u = stride / 2; u < kCellCamera.width; u += stride) columns += u - kShift >= kRim;
+    for (int v = stride / 2; v < kCellCamera.height; v += stride)
+      rows += v >= kRim && v < kCellCamera.height - kRim;
+    EXPECT_EQ(Sum(wall, wall, to_the_left, stride).num_pairs, columns * rows) << stride;
+  }
+}
+
 /// Of a small motion d the residuals are J d, so that J^T W r = (J^T W J) d, in each of its six directions.
 TEST(AddPairs, TheJacobianTellsWhatASmallMotionDoes) {
   const WorkingFrame room = Room();
