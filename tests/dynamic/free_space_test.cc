@@ -160,5 +160,21 @@ TEST(Background, ABlackMonitorIsExpectedAlthoughNothingWasMeasuredThere) {
   EXPECT_EQ(Share(view.brightest < 20, inside), 1);
 }
 
+TEST(Background, IsUnknownWhereNoReferenceLooked) {
+  constexpr int kShift = 30;  // cells, to the left
+  constexpr float kWallM = 2;
+  ReferenceView reference = Reference(Depth(kWallM, 0, 1));
+  auto frame = std::make_shared<WorkingFrame>(*reference.frame);
+  frame->pyramid.resize(3, cv::Mat1f(frame->depth_m.size(), 120.f));
+  reference.frame = frame, reference.filled_depth_m = frame->depth_m;
+  reference.reference_from_current.translation.x() = -kShift * kWallM / kCamera.fx;
+  WorkingFrame current = *frame;
+  current.depth_m = cv::Mat1f::zeros(frame->depth_m.size());
+  const ReferenceView* references[] = {&reference};
+  const BackgroundView view = RenderBackground(kCamera, current, references);
+  EXPECT_EQ(Share(view.depth_m, cv::Rect(0, 0, kShift - 3, kCamera.height)), 0);
+  EXPECT_EQ(Share(view.depth_m, cv::Rect(kShift + 3, 5, kCamera.width - kShift - 3, 110)), 1);
+}
+
 }  // namespace
 }  // namespace orbslam
