@@ -169,7 +169,7 @@ TEST(Background, IsUnknownWhereNoReferenceLooked) {
   reference.frame = frame, reference.filled_depth_m = frame->depth_m;
   reference.reference_from_current.translation.x() = -kShift * kWallM / kCamera.fx;
   WorkingFrame current = *frame;
-  current.depth_m = cv::Mat1f::zeros(frame->depth_m.size());
+  current.depth_m = cv::Mat1f(frame->depth_m.size(), 0.f);
   const ReferenceView* references[] = {&reference};
   const BackgroundView view = RenderBackground(kCamera, current, references);
   EXPECT_EQ(Share(view.depth_m, cv::Rect(0, 0, kShift - 3, kCamera.height)), 0);
