@@ -176,5 +176,25 @@ TEST(Background, IsUnknownWhereNoReferenceLooked) {
   EXPECT_EQ(Share(view.depth_m, cv::Rect(kShift + 3, 5, kCamera.width - kShift - 3, 110)), 1);
 }
 
+/// Told from what both see, although the camera has gone on.
+TEST(Background, IsAsBrightAsTheRoomIsNow) {
+  constexpr float kWallM = 2;
+  const cv::Rect hole(60, 50, 20, 20);
+  ReferenceView reference = Reference(Depth(kWallM, 0, 1));
+  auto frame = std::make_shared<WorkingFrame>(*reference.frame);
+  frame->pyramid.resize(3, cv::Mat1f(frame->depth_m.size(), 120.f));
+  reference.frame = frame, reference.filled_depth_m = frame->depth_m;
+  reference.reference_from_current.translation.x() = -30 * kWallM / kCamera.fx;
+  WorkingFrame current;
+  current.depth_m = Depth(kWallM, 0, 2);
+  current.depth_m(hole).setTo(0);
+  current.pyramid.resize(3, cv::Mat1f(frame->depth_m.size(), 60.f));
+  current.pyramid[1] = current.pyramid[1].clone();
+  current.pyramid[1].colRange(0, 25).setTo(240);  // what the reference did not see
+  const ReferenceView* references[] = {&reference};
+  const BackgroundView view = RenderBackground(kCamera, current, references);
+  EXPECT_EQ(Share(cv::abs(view.brightest - 60) < 1, hole), 1);
+}
+
 }  // namespace
 }  // namespace orbslam
