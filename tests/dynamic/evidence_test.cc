@@ -88,6 +88,28 @@ TEST(Evidence, AFloorMovesNeitherByItsPastNorByTheShoesOnIt) {
   EXPECT_EQ(floor[1].carried, thing[1].carried);
 }
 
+/// A cell is inside a cluster if all eight around it are of it.
+TEST(Evidence, ACellAtACornerOfItsClusterIsNotInside) {
+  const cv::Size size(9, 7);
+  const cv::Mat1b none(size, uint8_t{0});
+  WorkingFrame frame;
+  frame.depth_m = cv::Mat1f(size, 2.f);
+  for (const cv::Point corner : {cv::Point(-1, -1), {1, -1}, {-1, 1}, {1, 1}, {9, 9}}) {
+    Segmentation segmentation{cv::Mat1i(size, -1), std::vector<Cluster>(1)};
+    for (int v = 2; v <= 4; ++v)
+      for (int u = 3; u <= 5; ++u) {
+        if (cv::Point(u, v) == cv::Point(4, 3) + corner) continue;
+        segmentation.labels(v, u) = 0;
+        segmentation.clusters[0].cells.push_back(v * size.width + u);
+      }
+    const std::vector<Flow> flows{{{}, {0.5f, 1}}};
+    const ClusterFacts facts =
+        GatherFacts(segmentation, frame, {none, none, none, none}, cv::Mat1f(size, 0.f), flows).front();
+    EXPECT_EQ(facts.num_interior, corner.x == 9 ? 1 : 0) << corner;
+    EXPECT_EQ(facts.num_border, facts.num_cells - 1) << corner;
+  }
+}
+
 TEST(Evidence, CornersWeighByHowExactTheyAre) {
   ClusterFacts facts = Mover();
   facts.num_judged = facts.num_suspicious = 0, facts.num_corners = facts.num_moving_corners = 40;
